@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * Status codes, error text, progress and what every other public header needs. */
+#ifndef METAMER_BASE_H
+#define METAMER_BASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define MTM_API   __attribute__((visibility("default")))
+#define MTM_CHECK __attribute__((warn_unused_result))
+#else
+#define MTM_API
+#define MTM_CHECK
+#endif
+
+/* What the world can do wrong. A caller's own mistake is an assertion instead, stated as a precondition. */
+typedef enum mtm_status {
+    MTM_OK = 0,
+    MTM_ARGUMENT, /* a name or value that the call cannot use: an unknown light, a basis that cannot relight */
+    MTM_MEMORY,   /* out of memory */
+    MTM_IO,       /* a file could not be found, read or written */
+    MTM_FORMAT,   /* a file does not follow its format */
+    MTM_LIMIT,    /* a size beyond what this library accepts */
+    MTM_NUMERIC,  /* a computation without a usable answer */
+    MTM_CANCELLED, /* the progress callback asked to stop */
+} mtm_status;
+
+/* One sentence that names file, field and value and says what was expected. Every call that takes an
+ * `mtm_error *` fills it exactly when it returns something other than MTM_OK; NULL is allowed. */
+typedef struct mtm_error {
+    char message[1024];
+} mtm_error;
+
+/* Called now and then from the thread that started the work with the fraction done (0..1, rising).
+ * Returning false stops the work, which then returns MTM_CANCELLED. */
+typedef bool (*mtm_progress_function)(void *user, double fraction);
+
+typedef struct mtm_progress {
+    mtm_progress_function report; /* NULL: nobody listens */
+    void *user;
+} mtm_progress;
+
+/* The version of the library, "major.minor.patch". */
+MTM_API const char *mtm_version(void);
+
+/* Number of threads used where an option says 0: the processors this process may run on, at least 1. */
+MTM_API int mtm_default_thread_count(void);
+
+/* Frees text that the library returned as `char *`. NULL is allowed. */
+MTM_API void mtm_text_free(char *text);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

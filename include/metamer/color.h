@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * Observers, and color in XYZ, linear and encoded sRGB, CIELAB and CIEDE2000. */
+#ifndef METAMER_COLOR_H
+#define METAMER_COLOR_H
+
+#include "metamer/spectrum.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* CIE tristimulus values. The scale is the caller's: the library's own pictures have Y = 1 on the perfect
+ * reflector under a light of weight 1. */
+typedef struct mtm_xyz {
+    double x, y, z;
+} mtm_xyz;
+
+/* Red, green, blue with sRGB's primaries and white; linear unless a function says encoded. */
+typedef struct mtm_rgb {
+    double r, g, b;
+} mtm_rgb;
+
+/* CIE 1976 L*a*b*. */
+typedef struct mtm_lab {
+    double l, a, b;
+} mtm_lab;
+
+/* Three sensitivity curves on the grid. */
+typedef struct mtm_observer {
+    char name[64];
+    mtm_spectrum x, y, z;
+} mtm_observer;
+
+/* The observer of that name ("cie1931", the CIE 1931 2° standard observer, from CIE 018). MTM_ARGUMENT for an
+ * unknown name lists the known ones. */
+MTM_API MTM_CHECK mtm_status mtm_observer_get(const char *name, mtm_observer *observer, mtm_error *error);
+
+/* Plain sums over the grid, no normalisation: x = Σ stimulus·x̄ and so on. */
+MTM_API mtm_xyz mtm_xyz_of(const mtm_spectrum *stimulus, const mtm_observer *observer);
+
+/* The light scaled so that its y is 1 on the perfect reflector. MTM_NUMERIC where its luminance is not positive
+ * and finite. */
+MTM_API MTM_CHECK mtm_status mtm_light_normalize(const mtm_spectrum *light, const mtm_observer *observer,
+                                                 mtm_spectrum *normalized, mtm_error *error);
+
+/* The four-digit matrix of IEC 61966-2-1 from XYZ (Y = 1 for white) to linear sRGB, row by row, and its inverse. */
+MTM_API void mtm_rgb_from_xyz_matrix(double matrix[3][3]);
+MTM_API mtm_rgb mtm_rgb_from_xyz(mtm_xyz xyz);
+MTM_API mtm_xyz mtm_xyz_from_rgb(mtm_rgb rgb);
+
+/* One channel between linear and encoded sRGB (IEC 61966-2-1), 0..1 to 0..1; values outside are clipped. */
+MTM_API double mtm_srgb_encode(double linear);
+MTM_API double mtm_srgb_decode(double encoded);
+
+/* Linear sRGB of "#rrggbb". MTM_ARGUMENT names the text and the form expected. */
+MTM_API MTM_CHECK mtm_status mtm_rgb_parse(const char *hex, mtm_rgb *linear, mtm_error *error);
+
+/* XYZ of sRGB's white D65 (x = 0.3127, y = 0.3290, Y = 1), the white that pictures are judged against. */
+MTM_API mtm_xyz mtm_white_d65(void);
+
+/* CIELAB relative to a white with y > 0, exact 6/29 constants (CIE 015). */
+MTM_API mtm_lab mtm_lab_from_xyz(mtm_xyz xyz, mtm_xyz white);
+
+/* CIEDE2000 with kL = kC = kH = 1 (Sharma, Wu, Dalal, Color Res. Appl. 30, 2005). */
+MTM_API double mtm_ciede2000(mtm_lab a, mtm_lab b);
+
+/* The 3×3 matrix, row by row, that adapts XYZ from one white to another (Bradford, linear). Both whites have
+ * y > 0. */
+MTM_API void mtm_bradford(mtm_xyz from_white, mtm_xyz to_white, double matrix[3][3]);
+
+/* The smoothest reflectance (least sum of squared steps between neighbours) with 0 ≤ ρ ≤ 1 that shows the linear
+ * sRGB color `rgb` (each 0..1) under D65 to the CIE 1931 observer (Burns, Color Res. Appl. 45, 2020). White gives
+ * all ones and black all zeros; the color of the result is within 1e-6 of `rgb` scaled to the white of the
+ * tabulated D65. MTM_ARGUMENT outside 0..1; MTM_NUMERIC where no bounded reflectance has that color. */
+MTM_API MTM_CHECK mtm_status mtm_reflectance_of_rgb(mtm_rgb rgb, mtm_spectrum *reflectance, mtm_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
