@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -D OUTPUT=file.c -D TABLES=a.csv;b.csv -P embed_spectra.cmake
 # Writes the tables as the array that src/spectrum/embedded.h declares: each file's text, named by its file.
-set(code "/* Made by cmake/embed_spectra.cmake from data/spectra/. */\n#include \"spectrum/embedded.h\"\n\n")
-string(APPEND code "const mtm_embedded_table mtm_embedded_tables[] = {\n")
+# As bytes, because C compilers need not take string literals of more than 4095 characters.
+set(texts "")
+set(entries "")
+set(index 0)
 foreach(table ${TABLES})
     cmake_path(GET table STEM LAST_ONLY name)
-    string(APPEND code "    {\"${name}\",\n")
-    file(STRINGS ${table} lines)
-    foreach(line ${lines})
-        string(REPLACE "\"" "\\\"" line "${line}")
-        string(APPEND code "     \"${line}\\n\"\n")
-    endforeach()
-    string(APPEND code "    },\n")
+    file(READ ${table} bytes HEX)
+    string(REGEX REPLACE "(................................)" "\\1\n   " bytes "${bytes}")
+    string(REGEX REPLACE "([0-9a-f][0-9a-f])" " 0x\\1," bytes "${bytes}")
+    string(APPEND texts "static const char text_${index}[] = {\n   ${bytes} 0x00};\n\n")
+    string(APPEND entries "    {\"${name}\", text_${index}},\n")
+    math(EXPR index "${index} + 1")
 endforeach()
-string(APPEND code "    {0, 0},\n};\n")
-file(WRITE ${OUTPUT} "${code}")
+file(WRITE ${OUTPUT} "/* Made by cmake/embed_spectra.cmake from data/spectra/. */\n#include \"spectrum/embedded.h\"\n\n"
+     "${texts}const mtm_embedded_table mtm_embedded_tables[] = {\n${entries}    {0, 0},\n};\n")
