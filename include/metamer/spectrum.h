@@ -21,9 +21,10 @@ typedef struct mtm_spectrum {
     double value[MTM_SPECTRUM_SAMPLES];
 } mtm_spectrum;
 
-/* What a table holds decides how it comes to the grid: tables with a step of 5 nm or more are interpolated
- * linearly; finer ones are averaged over 5 nm for lights and interpolated for the rest; beyond the table's ends
- * the end value is held for lights and reflectances and is 0 for observers. */
+/* What a table holds decides how it comes to the grid: tables with a median step of 5 nm or more are interpolated
+ * linearly; finer ones are averaged over 5 nm for lights (the exact mean of the piecewise-linear curve within
+ * 2.5 nm of each wavelength) and interpolated for the rest; beyond the table's ends the end value is held for
+ * lights and reflectances and is 0 for observers. Samples may be spaced unevenly. */
 typedef enum mtm_spectrum_kind {
     MTM_KIND_LIGHT,
     MTM_KIND_REFLECTANCE,
@@ -51,22 +52,23 @@ MTM_API mtm_spectrum mtm_spectrum_resample(int count, const double *wavelength_n
                                            mtm_spectrum_kind kind);
 
 /* Reads a CSV table: a header row "wavelength_nm,name,…", then one row per wavelength, numbers with a decimal
- * point whatever the locale; blank lines, lines that begin with '#', blanks round cells, quotes round names, a
- * UTF-8 mark and CR LF line ends are allowed. Errors (each names file and line): MTM_IO; MTM_FORMAT for a
- * missing, unreadable or not finite number, a row of another length, wavelengths that do not rise, two columns of
- * one name, no data; MTM_LIMIT beyond 64 MiB, 4096 columns or 100000 rows. On success the caller calls
- * mtm_spectrum_table_free. */
+ * point whatever the locale; blank lines, lines that begin with '#', blanks and quotes round cells, a UTF-8 mark
+ * and CR LF line ends are allowed. Errors (each names file and line): MTM_IO; MTM_FORMAT for another first
+ * column, a missing, unreadable or not finite number, a row of another length, wavelengths that do not rise or all
+ * miss the grid (another unit), two columns of one name, no data; MTM_LIMIT beyond 64 MiB, 4096 columns or 100000
+ * rows; MTM_MEMORY. On success the caller calls mtm_spectrum_table_free. */
 MTM_API MTM_CHECK mtm_status mtm_spectrum_table_read(const char *path, mtm_spectrum_table *table,
                                                      mtm_error *error);
 MTM_API void mtm_spectrum_table_free(mtm_spectrum_table *table);
 
 /* The column of that name on the grid. MTM_ARGUMENT for an unknown column names the nearest known one; `path`
- * only serves that message. */
+ * only serves that message; MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_spectrum_table_column(const mtm_spectrum_table *table, const char *path,
                                                        const char *column, mtm_spectrum_kind kind,
                                                        mtm_spectrum *spectrum, mtm_error *error);
 
-/* Reads "FILE.csv:COLUMN" (split at the last colon), the file relative to `folder`. */
+/* Reads "FILE.csv:COLUMN" (split at the last colon), the file relative to `folder`. Errors: MTM_ARGUMENT without
+ * file or column, and those of the two calls above. */
 MTM_API MTM_CHECK mtm_status mtm_spectrum_read(const char *folder, const char *file_and_column,
                                                mtm_spectrum_kind kind, mtm_spectrum *spectrum,
                                                mtm_error *error);
