@@ -3,6 +3,8 @@
 #ifndef METAMER_SPECTRUM_EMBEDDED_H
 #define METAMER_SPECTRUM_EMBEDDED_H
 
+#include "metamer/spectrum.h"
+
 typedef struct mtm_embedded_table {
     const char *name; /* file name without ".csv" */
     const char *text; /* its content, '\n' line ends */
@@ -10,5 +12,10 @@ typedef struct mtm_embedded_table {
 
 /* Ends with an entry of two null pointers. */
 extern const mtm_embedded_table mtm_embedded_tables[];
+
+/* A column of the built-in table of that name, which exists, on the grid. The text is parsed anew on each call
+ * (a fraction of a millisecond), so that there is no cache to share between threads. Errors: MTM_MEMORY. */
+MTM_CHECK mtm_status mtm_embedded_column(const char *table_name, const char *column, mtm_spectrum_kind kind,
+                                         mtm_spectrum *spectrum, mtm_error *error);
 
 #endif
