@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * Small dense linear systems in double precision with a fixed order of operations, so that results repeat. */
+#ifndef METAMER_BASE_LINEAR_H
+#define METAMER_BASE_LINEAR_H
+
+#include "metamer/base.h"
+
+/* Replaces the lower triangle (diagonal included) of the symmetric n×n `matrix`, row by row, `stride` ≥ n doubles
+ * from row to row, by its Cholesky factor L, matrix = L·Lᵀ; what lies above the diagonal is neither read nor
+ * written. False where a pivot is not above n·2⁻⁵² times its diagonal entry: not positive definite in double. */
+MTM_CHECK bool mtm_cholesky_factor(int n, int stride, double *matrix);
+
+/* Replaces the right-hand side b by the solution of L·Lᵀ x = b. */
+void mtm_cholesky_solve(int n, int stride, const double *factor, double *b);
+
+/* A 3×3 matrix by value, m[row][column] (a pointer to an array cannot become const in C17). */
+typedef struct mtm_matrix3 {
+    double m[3][3];
+} mtm_matrix3;
+
+/* False (inverse untouched) where the determinant is 0 or not finite. */
+MTM_CHECK bool mtm_matrix3_invert(mtm_matrix3 matrix, mtm_matrix3 *inverse);
+
+/* a·b. */
+mtm_matrix3 mtm_matrix3_multiply(mtm_matrix3 a, mtm_matrix3 b);
+
+#endif
