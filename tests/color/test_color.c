@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "metamer/color.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "test.h"
+
+static mtm_xyz apply(double matrix[3][3], mtm_xyz v) {
+    return (mtm_xyz){matrix[0][0] * v.x + matrix[0][1] * v.y + matrix[0][2] * v.z,
+                     matrix[1][0] * v.x + matrix[1][1] * v.y + matrix[1][2] * v.z,
+                     matrix[2][0] * v.x + matrix[2][1] * v.y + matrix[2][2] * v.z};
+}
+
+static void assert_xyz(mtm_xyz a, mtm_xyz b, double tolerance) {
+    assert_float_equal(a.x, b.x, tolerance);
+    assert_float_equal(a.y, b.y, tolerance);
+    assert_float_equal(a.z, b.z, tolerance);
+}
+
+static void encoding_and_decoding_srgb_are_inverse(void **state) {
+    (void)state;
+    for (int i = 0; i <= 1000; i++) {
+        const double value = i / 1000.0;
+        /* The standard's two branches meet with a step of 3e-8, where a value may change its branch. */
+        assert_float_equal(mtm_srgb_encode(mtm_srgb_decode(value)), value, 1e-7);
+        assert_float_equal(mtm_srgb_decode(mtm_srgb_encode(value)), value, 1e-8);
+    }
+    for (int i = 0; i <= 255; i++)
+        assert_int_equal(lround(255 * mtm_srgb_encode(mtm_srgb_decode(i / 255.0))), i);
+}
+
+static void srgb_has_its_published_values_and_clips(void **state) {
+    (void)state;
+    assert_float_equal(mtm_srgb_encode(0.18), 0.4613561295, 1e-9);
+    assert_float_equal(mtm_srgb_decode(0.5), 0.2140411405, 1e-9);
+    assert_float_equal(mtm_srgb_encode(0.001), 0.01292, 1e-15);
+    assert_true(mtm_srgb_encode(-0.5) == 0 && mtm_srgb_encode(1) == 1 && mtm_srgb_encode(7) == 1);
+    assert_true(mtm_srgb_decode(-0.5) == 0 && mtm_srgb_decode(1) == 1 && mtm_srgb_decode(7) == 1);
+    assert_true(mtm_srgb_encode(NAN) == 0 && mtm_srgb_decode(NAN) == 0);
+}
+
+static void encoding_srgb_rises(void **state) {
+    (void)state;
+    for (int i = 1; i <= 100000; i++)
+        assert_true(mtm_srgb_encode(i / 100000.0) > mtm_srgb_encode((i - 1) / 100000.0));
+}
+
+static void xyz_and_rgb_are_inverse(void **state) {
+    (void)state;
+    const mtm_xyz xyz = {0.3, 0.7, 0.11};
+    assert_xyz(mtm_xyz_from_rgb(mtm_rgb_from_xyz(xyz)), xyz, 1e-15);
+    double matrix[3][3];
+    mtm_rgb_from_xyz_matrix(matrix);
+    assert_true(matrix[0][0] == 3.2406 && matrix[1][2] == 0.0415 && matrix[2][1] == -0.2040);
+    const mtm_xyz product = apply(matrix, xyz);
+    const mtm_rgb rgb = mtm_rgb_from_xyz(xyz);
+    assert_true(product.x == rgb.r && product.y == rgb.g && product.z == rgb.b);
+    assert_xyz(mtm_xyz_from_rgb((mtm_rgb){1, 1, 1}), mtm_white_d65(), 2e-4);
+}
+
+static void hexadecimal_colors_are_read(void **state) {
+    (void)state;
+    mtm_rgb rgb;
+    mtm_error error;
+    assert_ok(mtm_rgb_parse("#FF8000", &rgb, &error), error);
+    assert_true(rgb.r == 1 && rgb.b == 0);
+    assert_float_equal(rgb.g, mtm_srgb_decode(128 / 255.0), 1e-15);
+    assert_ok(mtm_rgb_parse("#0a0b0c", &rgb, &error), error);
+    assert_float_equal(rgb.b, mtm_srgb_decode(12 / 255.0), 1e-15);
+}
+
+static void other_forms_of_colors_are_refused(void **state) {
+    (void)state;
+    const char *const wrong[] = {"",         "#",       "red",  "ff8000",   "#ff800",
+                                 "#ff80000", "#ff80g0", "#fff", " #ff8000", "#-1-1-1"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        mtm_rgb rgb;
+        mtm_error error;
+        char expected[64];
+        (void)snprintf(expected, sizeof expected, "color '%s', expected the form #rrggbb", wrong[i]);
+        assert_fails(mtm_rgb_parse(wrong[i], &rgb, &error), MTM_ARGUMENT, error, expected);
+    }
+}
+
+static void white_is_lab_100_0_0_and_black_0_0_0(void **state) {
+    (void)state;
+    const mtm_xyz whites[] = {mtm_white_d65(), {1.1, 1, 0.35}, {95, 100, 108}};
+    for (int i = 0; i < 3; i++) {
+        const mtm_lab white = mtm_lab_from_xyz(whites[i], whites[i]);
+        const mtm_lab black = mtm_lab_from_xyz((mtm_xyz){0, 0, 0}, whites[i]);
+        assert_float_equal(white.l, 100, 1e-13);
+        assert_float_equal(white.a, 0, 1e-13);
+        assert_float_equal(white.b, 0, 1e-13);
+        assert_float_equal(black.l, 0, 1e-13);
+        assert_float_equal(black.a, 0, 1e-13);
+        assert_float_equal(black.b, 0, 1e-13);
+    }
+}
+
+/* Both branches of CIELAB meet at (6/29)³ with value and slope; below, L* is 903.3 Y. */
+static void lab_is_smooth_where_its_branches_meet(void **state) {
+    (void)state;
+    const mtm_xyz white = mtm_white_d65();
+    const double edge = pow(6.0 / 29, 3);
+    const double step = 1e-6;
+    const double below = mtm_lab_from_xyz((mtm_xyz){0, edge - step, 0}, white).l;
+    const double middle = mtm_lab_from_xyz((mtm_xyz){0, edge, 0}, white).l;
+    const double above = mtm_lab_from_xyz((mtm_xyz){0, edge + step, 0}, white).l;
+    assert_float_equal(middle, 8, 1e-12);
+    assert_float_equal((above - middle) / step, (middle - below) / step, 0.2);
+    assert_float_equal(mtm_lab_from_xyz((mtm_xyz){0, 0.001, 0}, white).l, 0.001 * 24389 / 27, 1e-12);
+}
+
+static void lab_under_a_light_without_blue_is_finite(void **state) {
+    (void)state;
+    const mtm_lab lab = mtm_lab_from_xyz((mtm_xyz){0.5, 0.4, 0}, (mtm_xyz){1.2, 1, 0});
+    assert_true(isfinite(lab.l) && isfinite(lab.a) && isfinite(lab.b));
+}
+
+static void bradford_maps_white_to_white(void **state) {
+    (void)state;
+    const mtm_xyz a = {1.0985, 1, 0.3558};
+    const mtm_xyz d65 = mtm_white_d65();
+    double there[3][3], back[3][3], same[3][3];
+    mtm_bradford(a, d65, there);
+    mtm_bradford(d65, a, back);
+    mtm_bradford(a, a, same);
+    assert_xyz(apply(there, a), d65, 1e-14);
+    const mtm_xyz color = {0.2, 0.3, 0.4};
+    assert_xyz(apply(back, apply(there, color)), color, 1e-14);
+    assert_xyz(apply(same, color), color, 1e-14);
+}
+
+/* D50 to D65, as published for ICC profiles (B. Lindbloom) from whites to five digits. */
+static void bradford_has_its_published_matrix(void **state) {
+    (void)state;
+    const double published[3][3] = {{0.9555766, -0.0230393, 0.0631636},
+                                    {-0.0282895, 1.0099416, 0.0210077},
+                                    {0.0122982, -0.0204830, 1.3299098}};
+    double matrix[3][3];
+    mtm_bradford((mtm_xyz){0.96422, 1, 0.82521}, (mtm_xyz){0.95047, 1, 1.08883}, matrix);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) assert_float_equal(matrix[i][j], published[i][j], 1e-6);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(encoding_and_decoding_srgb_are_inverse),
+        cmocka_unit_test(srgb_has_its_published_values_and_clips),
+        cmocka_unit_test(encoding_srgb_rises),
+        cmocka_unit_test(xyz_and_rgb_are_inverse),
+        cmocka_unit_test(hexadecimal_colors_are_read),
+        cmocka_unit_test(other_forms_of_colors_are_refused),
+        cmocka_unit_test(white_is_lab_100_0_0_and_black_0_0_0),
+        cmocka_unit_test(lab_is_smooth_where_its_branches_meet),
+        cmocka_unit_test(lab_under_a_light_without_blue_is_finite),
+        cmocka_unit_test(bradford_maps_white_to_white),
+        cmocka_unit_test(bradford_has_its_published_matrix),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
