@@ -58,20 +58,23 @@ MTM_API MTM_CHECK mtm_status mtm_rgb_parse(const char *hex, mtm_rgb *linear, mtm
 /* XYZ of sRGB's white D65 (x = 0.3127, y = 0.3290, Y = 1), the white that pictures are judged against. */
 MTM_API mtm_xyz mtm_white_d65(void);
 
-/* CIELAB relative to a white with y > 0, exact 6/29 constants (CIE 015). */
+/* CIELAB relative to a white with y > 0, exact 6/29 constants (CIE 015). Where the white's x or z is 0, the color's
+ * counts as 0 too. */
 MTM_API mtm_lab mtm_lab_from_xyz(mtm_xyz xyz, mtm_xyz white);
 
 /* CIEDE2000 with kL = kC = kH = 1 (Sharma, Wu, Dalal, Color Res. Appl. 30, 2005). */
 MTM_API double mtm_ciede2000(mtm_lab a, mtm_lab b);
 
 /* The 3×3 matrix, row by row, that adapts XYZ from one white to another (Bradford, linear). Both whites have
- * y > 0. */
+ * y > 0; the first has no cone response of 0. A nearly monochromatic light may have negative ones, whose adaptation
+ * maps white to white but means little elsewhere. */
 MTM_API void mtm_bradford(mtm_xyz from_white, mtm_xyz to_white, double matrix[3][3]);
 
 /* The smoothest reflectance (least sum of squared steps between neighbours) with 0 ≤ ρ ≤ 1 that shows the linear
  * sRGB color `rgb` (each 0..1) under D65 to the CIE 1931 observer (Burns, Color Res. Appl. 45, 2020). White gives
- * all ones and black all zeros; the color of the result is within 1e-6 of `rgb` scaled to the white of the
- * tabulated D65. MTM_ARGUMENT outside 0..1; MTM_NUMERIC where no bounded reflectance has that color. */
+ * all ones and black all zeros; the color of the result is within 1e-6 of `rgb` scaled, channel by channel, to the
+ * white of the tabulated D65 (which is within 2e-4 of (1, 1, 1)). MTM_ARGUMENT outside 0..1; MTM_NUMERIC where no
+ * bounded reflectance has that color (none of the cube is known); MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_reflectance_of_rgb(mtm_rgb rgb, mtm_spectrum *reflectance, mtm_error *error);
 
 #ifdef __cplusplus
