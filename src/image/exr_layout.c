@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * What the names of an OpenEXR file's channels say about its content.
- * The pattern of wavelengths follows A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral Images",
- * Journal of Computer Graphics Techniques 10(3), 2021: a decimal comma, because a dot separates layers. */
+ * The pattern of wavelengths follows A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral
+ * Images", Journal of Computer Graphics Techniques 10(3), 2021: a decimal comma, because a dot separates
+ * layers. */
 #include "image/exr_layout.h"
 
 #include <ctype.h>
@@ -27,8 +28,8 @@ static const struct {
     {'h', 2},  {'d', -1}, {'c', -2}, {'m', -3}, {'u', -6}, {'n', -9}, {'p', -12},
 };
 
-/* Length of digits, a decimal comma and an exponent at the start of `text`. An E without digits after it belongs to
- * the unit: it is the prefix exa. */
+/* Length of digits, a decimal comma and an exponent at the start of `text`. An E without digits after it
+ * belongs to the unit: it is the prefix exa. */
 static size_t number_length(const char *text) {
     const char *end = text;
     while (isdigit((unsigned char)*end) || *end == ',') end++;
@@ -151,7 +152,8 @@ static int compare_wavelengths(const void *a, const void *b) {
     return (left->wavelength_nm > right->wavelength_nm) - (left->wavelength_nm < right->wavelength_nm);
 }
 
-/* Gives the sorted wavelengths their slots. OpenEXR sorts channels as texts, so the order of the file is none. */
+/* Gives the sorted wavelengths their slots. OpenEXR sorts channels as texts, so the order of the file is
+ * none. */
 static mtm_status place_wavelengths(const exr_attr_chlist_t *channels, spectral_channel *found,
                                     const char *path, mtm_exr_layout *layout, mtm_error *error) {
     int count = 0;
@@ -216,18 +218,18 @@ static void find_alpha(const exr_attr_chlist_t *channels, mtm_exr_layout *layout
     }
 }
 
-/* OpenEXR allows integers and channels with fewer samples than pixels. */
+/* OpenEXR allows integers, and channels with fewer samples than pixels, which would also move the others. */
 static mtm_status check_channels(const exr_attr_chlist_t *channels, const char *path,
                                  const mtm_exr_layout *layout, mtm_error *error) {
     for (int i = 0; i < channels->num_channels; i++) {
         const exr_attr_chlist_entry_t *channel = &channels->entries[i];
+        if (channel->x_sampling != 1 || channel->y_sampling != 1)
+            return mtm_fail(error, MTM_FORMAT, "%s: channel '%s' has sampling %d x %d, expected 1 x 1", path,
+                            channel->name.str, channel->x_sampling, channel->y_sampling);
         if (layout->slot[i] < 0) continue;
         if (channel->pixel_type != EXR_PIXEL_HALF && channel->pixel_type != EXR_PIXEL_FLOAT)
             return mtm_fail(error, MTM_FORMAT, "%s: channel '%s' has pixel type %d, expected half or float",
                             path, channel->name.str, (int)channel->pixel_type);
-        if (channel->x_sampling != 1 || channel->y_sampling != 1)
-            return mtm_fail(error, MTM_FORMAT, "%s: channel '%s' has sampling %d x %d, expected 1 x 1", path,
-                            channel->name.str, channel->x_sampling, channel->y_sampling);
     }
     return MTM_OK;
 }

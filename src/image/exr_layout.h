@@ -7,8 +7,9 @@
 
 #include "metamer/image.h"
 
-/* The channels that make an image. Channel i of the file goes to float slot[i] of a pixel, or nowhere where that is
- * -1. Slots are the coefficients and then alpha; for reflectances, rising wavelengths and then alpha. */
+/* The channels that make an image. Channel i of the file goes to float slot[i] of a pixel, or nowhere where
+ * that is -1. Slots are the coefficients and then alpha; for reflectances, rising wavelengths and then alpha.
+ * */
 typedef struct mtm_exr_layout {
     int channel_count;
     int *slot;             /* channel_count */
@@ -17,8 +18,8 @@ typedef struct mtm_exr_layout {
     double *wavelength_nm; /* slot_count, rising strictly; NULL for a file of coefficients */
 } mtm_exr_layout;
 
-/* Decides by the channels. MTM_FORMAT says what the file holds instead of coefficients or reflectances. Release
- * with mtm_exr_layout_free, also after a failure. */
+/* Decides by the channels. MTM_FORMAT says what the file holds instead of coefficients or reflectances.
+ * Release with mtm_exr_layout_free, also after a failure. */
 MTM_CHECK mtm_status mtm_exr_layout_find(const exr_attr_chlist_t *channels, const char *path,
                                          mtm_exr_layout *layout, mtm_error *error);
 void mtm_exr_layout_free(mtm_exr_layout *layout);

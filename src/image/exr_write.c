@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * Writes a spectral image as OpenEXR, with OpenEXR's C core.
- * The T channels follow A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral Images", Journal of
- * Computer Graphics Techniques 10(3), 2021. */
+ * The T channels follow A. Fichet, R. Pacanowski, A. Wilkie, "An OpenEXR Layout for Spectral Images", Journal
+ * of Computer Graphics Techniques 10(3), 2021. */
 #include <assert.h>
 #include <errno.h>
 #include <stdlib.h>

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * Files for the tests of images: random images, whole files as bytes, and OpenEXR files of other programs, written
- * byte by byte after the format's description so that our reader is not only tested against our own writer. */
+ * Files for the tests of images: random images, whole files as bytes, and OpenEXR files of other programs,
+ * written byte by byte after the format's description so that our reader is not only tested against our own
+ * writer. */
 #ifndef METAMER_TESTS_IMAGE_FILES_H
 #define METAMER_TESTS_IMAGE_FILES_H
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -41,7 +43,7 @@ static inline void write_whole(const char *path, const char *bytes, size_t count
 typedef struct foreign_exr {
     int channel_count;
     const char *const *names; /* sorted as texts, as the format wants it */
-    int pixel_type;           /* 0 integer, 1 half, 2 float; only said, floats are written */
+    int pixel_type;           /* 0 integer (written as float), 1 half, 2 float */
     int min_x, min_y, width, height;
     uint32_t version_flags;          /* 0x200 for tiles */
     const char *attribute, *content; /* a string attribute more; NULL: none */
@@ -114,11 +116,20 @@ static inline void put_header(FILE *stream, const foreign_exr *file) {
     put_integer(stream, 0, 1);
 }
 
+/* A positive value that 16 bits hold: 1.fraction · 2^exponent, or 0. */
+static inline void put_half(FILE *stream, float value) {
+    int exponent = 0;
+    const float fraction = frexpf(value, &exponent); /* 0.5 … 1 */
+    const int bits = (exponent + 14) * 1024 + (int)(fraction * 2048.0F) - 1024;
+    put_integer(stream, value > 0.0F ? (uint64_t)bits : 0U, 2);
+}
+
 static inline void write_foreign_exr(const char *path, const foreign_exr *file) {
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
     put_header(stream, file);
-    const size_t row_bytes = (size_t)file->channel_count * (size_t)file->width * 4;
+    const size_t sample_bytes = file->pixel_type == 1 ? 2 : 4;
+    const size_t row_bytes = (size_t)file->channel_count * (size_t)file->width * sample_bytes;
     const size_t first = (size_t)ftell(stream) + (size_t)file->height * 8;
     for (size_t y = 0; y < (size_t)file->height; y++) put_integer(stream, first + y * (8 + row_bytes), 8);
     for (int y = 0; y < file->height; y++) {
@@ -127,7 +138,10 @@ static inline void write_foreign_exr(const char *path, const foreign_exr *file) 
         for (int channel = 0; channel < file->channel_count; channel++) {
             for (int x = 0; x < file->width; x++) {
                 const float value = file->value(channel, x, y);
-                put_bytes(stream, &value, 4);
+                if (file->pixel_type == 1)
+                    put_half(stream, value);
+                else
+                    put_bytes(stream, &value, 4);
             }
         }
     }

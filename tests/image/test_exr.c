@@ -87,6 +87,22 @@ static void half_coefficients_come_back_to_eleven_bits(void **state) {
     mtm_image_destroy(copy);
 }
 
+static void special_halves_come_back(void **state) {
+    (void)state;
+    mtm_error error;
+    mtm_image_write_options options = mtm_image_write_defaults();
+    options.is_half = true;
+    mtm_image *image = NULL;
+    const float values[] = {0.0F, -0.0F, INFINITY, -INFINITY, 65504.0F, -0x1p-24F, 0x1p-14F, 0x3ffp-24F};
+    assert_ok(mtm_image_create(1, 1, 7, "factors", NULL, NULL, &image, &error), error);
+    memcpy(image->pixels, values, sizeof values);
+    assert_ok(mtm_image_write(image, file_name, &options, &error), error);
+    mtm_image *copy = read_back();
+    assert_memory_equal(copy->pixels, values, sizeof values);
+    mtm_image_destroy(image);
+    mtm_image_destroy(copy);
+}
+
 static void long_and_foreign_texts_come_back(void **state) {
     (void)state;
     mtm_error error;
@@ -344,6 +360,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coefficients_come_back_bit_for_bit),
         cmocka_unit_test(half_coefficients_come_back_to_eleven_bits),
+        cmocka_unit_test(special_halves_come_back),
         cmocka_unit_test(long_and_foreign_texts_come_back),
         cmocka_unit_test(missing_texts_stay_missing),
         cmocka_unit_test(a_preview_and_spectra_do_not_disturb_the_coefficients),
