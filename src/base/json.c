@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * Strict reading of JSON documents with errors that name document, key and value. */
+#include "base/json.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/nearest.h"
+#include "base/number.h"
+
+const mtm_json_range mtm_json_any = {-HUGE_VAL, HUGE_VAL};
+const mtm_json_range mtm_json_not_negative = {0, HUGE_VAL};
+const mtm_json_range mtm_json_unit = {0, 1};
+
+mtm_status mtm_json_parse(const char *document, const char *text, size_t byte_count, json_t **value,
+                          mtm_error *error) {
+    json_error_t reason;
+    *value = json_loadb(text, byte_count, JSON_REJECT_DUPLICATES, &reason);
+    if (*value != NULL) return MTM_OK;
+    return mtm_fail(error, MTM_FORMAT, "%s:%d: is no JSON document: %s", document, reason.line, reason.text);
+}
+
+mtm_status mtm_json_read(const char *path, json_t **value, mtm_error *error) {
+    char *text = NULL;
+    size_t byte_count = 0;
+    mtm_status status = mtm_file_read(path, MTM_JSON_TEXT_MAX, &text, &byte_count, error);
+    if (status != MTM_OK) return status;
+    status = mtm_json_parse(path, text, byte_count, value, error);
+    free(text);
+    return status;
+}
+
+mtm_json_reader mtm_json_begin(const char *document, mtm_error *error) {
+    return (mtm_json_reader){.document = document, .error = error};
+}
+
+void mtm_json_fail(mtm_json_reader *reader, const char *key, const char *format, ...) {
+    if (reader->status != MTM_OK) return;
+    char sentence[640];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    const char *dot = key != NULL && reader->path_length > 0 ? "." : "";
+    const char *name = key != NULL ? key : "";
+    const char *place = reader->path_length == 0 && key == NULL ? "the document" : reader->path;
+    reader->status =
+        mtm_fail(reader->error, MTM_FORMAT, "%s: %s%s%s %s", reader->document, place, dot, name, sentence);
+}
+
+static size_t extend_path(mtm_json_reader *reader, const char *separator, const char *step, const char *end) {
+    const size_t previous = reader->path_length;
+    const size_t room = sizeof reader->path - previous;
+    const int added = snprintf(reader->path + previous, room, "%s%s%s", separator, step, end);
+    reader->path_length += added < 0 ? 0 : (size_t)added < room ? (size_t)added : room - 1;
+    return previous;
+}
+
+size_t mtm_json_enter(mtm_json_reader *reader, const char *key) {
+    return extend_path(reader, reader->path_length > 0 ? "." : "", key, "");
+}
+
+size_t mtm_json_enter_index(mtm_json_reader *reader, size_t index) {
+    char number[24];
+    (void)snprintf(number, sizeof number, "%zu", index);
+    return extend_path(reader, "[", number, "]");
+}
+
+void mtm_json_leave(mtm_json_reader *reader, size_t previous) {
+    reader->path_length = previous;
+    reader->path[previous] = '\0';
+}
+
+const char *mtm_json_preview(const json_t *value, char buffer[64]) {
+    char *text = json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(10));
+    (void)snprintf(buffer, 64, "%.57s%s", text == NULL ? "?" : text,
+                   text != NULL && strlen(text) > 57 ? "…" : "");
+    free(text);
+    return buffer;
+}
+
+static bool is_known_key(const char *key, const char *const *keys, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(key, keys[i]) == 0) return true;
+    return false;
+}
+
+bool mtm_json_expect_object(mtm_json_reader *reader, const json_t *value, const char *const *keys,
+                            size_t count) {
+    if (reader->status != MTM_OK) return false;
+    if (!json_is_object(value)) {
+        char preview[64];
+        mtm_json_fail(reader, NULL, "is %s, must be an object", mtm_json_preview(value, preview));
+        return false;
+    }
+    const char *key = NULL;
+    json_t *member = NULL;
+    json_object_foreach((json_t *)value, key, member) {
+        if (is_known_key(key, keys, count)) continue;
+        const char *nearest = mtm_nearest_name(key, keys, count);
+        mtm_json_fail(reader, key, "is not a known key; the nearest is \"%s\"", nearest);
+        return false;
+    }
+    return true;
+}
+
+json_t *mtm_json_required(mtm_json_reader *reader, const json_t *object, const char *key) {
+    if (reader->status != MTM_OK) return NULL;
+    json_t *value = json_object_get(object, key);
+    if (value == NULL) mtm_json_fail(reader, key, "is missing");
+    return value;
+}
+
+static json_t *optional(const mtm_json_reader *reader, const json_t *object, const char *key) {
+    return reader->status == MTM_OK ? json_object_get(object, key) : NULL;
+}
+
+/* "is "5", must be …": the tail of the sentence for a value of the wrong type. */
+static void fail_type(mtm_json_reader *reader, const char *key, const json_t *value, const char *expected) {
+    char preview[64];
+    mtm_json_fail(reader, key, "is %s, must be %s", mtm_json_preview(value, preview), expected);
+}
+
+static bool is_in_range(double number, mtm_json_range range) {
+    return isfinite(number) && number >= range.min && number <= range.max;
+}
+
+static void fail_range(mtm_json_reader *reader, const char *key, const json_t *value, mtm_json_range range) {
+    char low[MTM_NUMBER_TEXT];
+    char high[MTM_NUMBER_TEXT];
+    char expected[2 * MTM_NUMBER_TEXT + 32];
+    if (isinf(range.min) && isinf(range.max))
+        (void)snprintf(expected, sizeof expected, "a number");
+    else if (isinf(range.max))
+        (void)snprintf(expected, sizeof expected, "a number, %s or more", mtm_number_format(range.min, low));
+    else
+        (void)snprintf(expected, sizeof expected, "a number from %s to %s", mtm_number_format(range.min, low),
+                       mtm_number_format(range.max, high));
+    fail_type(reader, key, value, expected);
+}
+
+bool mtm_json_number(mtm_json_reader *reader, const json_t *object, const char *key, mtm_json_range range,
+                     double *result) {
+    const json_t *value = optional(reader, object, key);
+    if (value == NULL) return false;
+    if (!json_is_number(value) || !is_in_range(json_number_value(value), range)) {
+        fail_range(reader, key, value, range);
+        return false;
+    }
+    *result = json_number_value(value);
+    return true;
+}
+
+bool mtm_json_numbers(mtm_json_reader *reader, const json_t *object, const char *key, size_t count,
+                      mtm_json_range range, double *result) {
+    const json_t *value = optional(reader, object, key);
+    if (value == NULL) return false;
+    if (!json_is_array(value) || json_array_size(value) != count) {
+        char expected[64];
+        (void)snprintf(expected, sizeof expected, "an array of %zu numbers", count);
+        if (json_is_array(value) && json_array_size(value) > 8)
+            mtm_json_fail(reader, key, "has %zu elements, must be %s", json_array_size(value), expected);
+        else
+            fail_type(reader, key, value, expected);
+        return false;
+    }
+    const size_t place = mtm_json_enter(reader, key);
+    for (size_t i = 0; i < count && reader->status == MTM_OK; i++) {
+        const json_t *element = json_array_get(value, i);
+        const size_t array = mtm_json_enter_index(reader, i);
+        if (!json_is_number(element) || !is_in_range(json_number_value(element), range))
+            fail_range(reader, NULL, element, range);
+        else
+            result[i] = json_number_value(element);
+        mtm_json_leave(reader, array);
+    }
+    mtm_json_leave(reader, place);
+    return reader->status == MTM_OK;
+}
+
+bool mtm_json_boolean(mtm_json_reader *reader, const json_t *object, const char *key, bool *result) {
+    const json_t *value = optional(reader, object, key);
+    if (value == NULL) return false;
+    if (!json_is_boolean(value)) {
+        fail_type(reader, key, value, "true or false");
+        return false;
+    }
+    *result = json_is_true(value);
+    return true;
+}
+
+bool mtm_json_text(mtm_json_reader *reader, const json_t *object, const char *key, const char **result) {
+    const json_t *value = optional(reader, object, key);
+    if (value == NULL) return false;
+    if (!json_is_string(value) || json_string_length(value) == 0) {
+        fail_type(reader, key, value, "text in quotes, not empty");
+        return false;
+    }
+    *result = json_string_value(value);
+    return true;
+}
+
+bool mtm_json_choice(mtm_json_reader *reader, const json_t *object, const char *key, const char *const *names,
+                     size_t count, int *result) {
+    const json_t *value = optional(reader, object, key);
+    if (value == NULL) return false;
+    const char *text = json_string_value(value);
+    for (size_t i = 0; text != NULL && i < count; i++) {
+        if (strcmp(text, names[i]) != 0) continue;
+        *result = (int)i;
+        return true;
+    }
+    char expected[256] = "one of";
+    for (size_t i = 0; i < count; i++) {
+        const size_t length = strlen(expected);
+        (void)snprintf(expected + length, sizeof expected - length, "%s \"%s\"", i > 0 ? "," : "", names[i]);
+    }
+    fail_type(reader, key, value, expected);
+    return false;
+}
