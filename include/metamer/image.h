@@ -3,16 +3,13 @@
 #ifndef METAMER_IMAGE_H
 #define METAMER_IMAGE_H
 
-#include "metamer/base.h"
+#include "metamer/basis.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum {
-    MTM_IMAGE_EDGE_MAX = 32768, /* pixels along an edge */
-    MTM_DIMENSION_MAX = 83,     /* coefficients of a pixel */
-};
+enum { MTM_IMAGE_EDGE_MAX = 32768 /* pixels along an edge */ };
 
 /* A spectral image: `dimension` coefficients and then alpha (1 − transmittance) per pixel, premultiplied, padded
  * with zeros to `lanes` floats; rows from the top. The texts make the file stand alone. */
@@ -25,9 +22,6 @@ typedef struct mtm_image {
     char *palette; /* the palette (JSON) it was rendered with; NULL for a file of another program */
     char *scene;   /* the scene (JSON); NULL likewise */
 } mtm_image;
-
-/* Floats of a pixel with `dimension` coefficients and alpha: 4, 8, 16, or the next multiple of 4. */
-MTM_API int mtm_lanes(int dimension);
 
 /* A black, transparent image; the texts are copied, `palette` and `scene` may be NULL. Preconditions: width and
  * height 1 … MTM_IMAGE_EDGE_MAX, dimension 1 … MTM_DIMENSION_MAX. MTM_MEMORY. Release with mtm_image_destroy. */

@@ -8,13 +8,6 @@
 #include "base/fail.h"
 #include "base/memory.h"
 
-int mtm_lanes(int dimension) {
-    const int floats = dimension + 1;
-    if (floats > 4 && floats <= 8) return 8;
-    if (floats > 8 && floats <= 16) return 16; /* no kernel for 12 lanes */
-    return (floats + 3) / 4 * 4;
-}
-
 /* A text that may be missing; false only when out of memory. */
 static bool copy_text(const char *text, char **copy) {
     if (text == NULL) return true;

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * Spectral representations: how materials become coefficients, and how a light turns coefficients into color. */
+#ifndef METAMER_BASIS_H
+#define METAMER_BASIS_H
+
+#include "metamer/color.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* All that stands between coefficients and linear sRGB: the light, who looks, and the display. */
+typedef struct mtm_illumination {
+    mtm_spectrum light; /* intensity · Σ wᵢEᵢ, each Eᵢ with Y = 1 on the perfect reflector */
+    mtm_observer observer;
+    double rgb_from_xyz[3][3]; /* XYZ (Y = 1 for white) to linear sRGB, with or without adaptation */
+} mtm_illumination;
+
+/* Fills an illumination. `is_adapted` maps the light's own white to sRGB's D65 (Bradford), so that white looks
+ * white under every light; a light without luminance is left unadapted. */
+MTM_API mtm_illumination mtm_illumination_of(const mtm_spectrum *light, const mtm_observer *observer,
+                                             bool is_adapted);
+
+/* Linear sRGB of a reflectance: X · CMFᵀ · diag(E) · ρ, the full-spectral truth every basis is measured against. */
+MTM_API mtm_rgb mtm_illuminate(const mtm_illumination *illumination, const mtm_spectrum *reflectance);
+
+enum { MTM_DIMENSION_MAX = 83 /* d of any basis */ };
+
+/* Floats of a pixel, a table row or a splat with d coefficients and alpha: 4, 8, 16, or the next multiple of 4. */
+MTM_API int mtm_lanes(int dimension);
+
+/* A basis of d columns. It encodes the scene's materials and gives, for an illumination, the 3×d matrix M(E) from
+ * coefficients to linear sRGB. */
+typedef struct mtm_basis mtm_basis;
+
+/* Makes the basis `name`:
+ *   "materials"    d = m + 1: the m reflectances themselves and white; exact under every light
+ *   "wavelengths"  d = 81: the grid; exact, the reference
+ *   "rgb"          d = 3: colors under `illumination`; the plain renderer, cannot be relit
+ *   "auto"         materials
+ * for `material_count` reflectances (copied; 0 … 82). `illumination` is needed for "rgb" and may be NULL for the rest.
+ * MTM_ARGUMENT for an unknown name, a ":d" where the kind takes none, and "rgb" without illumination; MTM_LIMIT for
+ * too many materials; MTM_MEMORY. Release with mtm_basis_destroy (NULL allowed). */
+MTM_API MTM_CHECK mtm_status mtm_basis_create(const char *name, int material_count,
+                                              const mtm_spectrum *reflectances,
+                                              const mtm_illumination *illumination, mtm_basis **basis,
+                                              mtm_error *error);
+MTM_API void mtm_basis_destroy(mtm_basis *basis);
+
+MTM_API const char *mtm_basis_name(const mtm_basis *basis); /* never "auto" */
+MTM_API int mtm_basis_dimension(const mtm_basis *basis);    /* d */
+MTM_API int mtm_basis_material_count(const mtm_basis *basis);
+
+/* The d coefficients of material 0 … m-1, and of the perfect white reflector (for highlights). */
+MTM_API void mtm_basis_encode_material(const mtm_basis *basis, int material, float *coefficients);
+MTM_API void mtm_basis_encode_white(const mtm_basis *basis, float *coefficients);
+
+/* M(E): 3 rows of d, to linear sRGB. MTM_ARGUMENT from "rgb" under any other illumination than its own, with the
+ * reason. */
+MTM_API MTM_CHECK mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illumination,
+                                              double *matrix, mtm_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
