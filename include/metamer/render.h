@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * Projecting a volume into a spectral image, without any light. */
+#ifndef METAMER_RENDER_H
+#define METAMER_RENDER_H
+
+#include "metamer/camera.h"
+#include "metamer/image.h"
+#include "metamer/transfer.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How samples along a ray become a pixel. */
+typedef enum mtm_blend {
+    MTM_BLEND_COMPOSITE, /* emission and absorption, front to back */
+    MTM_BLEND_SUM,       /* ∫ emission, nothing absorbs, alpha 0: an X-ray picture */
+    MTM_BLEND_MAXIMUM, /* the largest value along the ray, classified as one opacity length of it, unshaded */
+} mtm_blend;
+
+/* Blinn–Phong with the normal turned to the viewer: ρ · (ambient + diffuse · n·l) + white · specular · (n·h)^shininess.
+ * Unshaded is ambient 1, diffuse 0, specular 0. */
+typedef struct mtm_shading {
+    double ambient, diffuse, specular; /* ≥ 0 */
+    double shininess;                  /* ≥ 0 */
+    bool is_headlight;                 /* the light shines along the ray */
+    double direction[3];               /* else: from the volume toward the light, world axes, not zero */
+    double
+        gradient_threshold; /* below it only ambient; fades in up to twice that. In fractions of the volume's value
+                                  range per smallest spacing */
+} mtm_shading;
+
+typedef struct mtm_render_options {
+    int width, height; /* pixels */
+    double step;       /* sample distance, in smallest spacings, > 0 */
+    mtm_blend blend;
+    bool jitter; /* each ray's samples shifted by a fixed random part of a step: noise instead of rings */
+    double termination; /* a ray ends where its transmittance falls below this; 0: never */
+    mtm_shading shading;
+    double clip_low[3], clip_high[3]; /* fractions of the volume's box */
+    int thread_count;                 /* 0: all processors; the picture is the same bits for any */
+} mtm_render_options;
+
+/* All defaults, with their reasons. */
+MTM_API mtm_render_options mtm_render_defaults(void);
+
+/* The names of the renderers, in the order of their table; NULL beyond the last. */
+MTM_API const char *mtm_renderer_name(int index);
+
+/* Renders with the renderer of that name into `image`, whose size and dimension are those of the options and the
+ * transfer function; what it held is replaced.
+ * Sample k of a ray lies (k + ½ + jitter) · step behind the ray's entry into the volume's box (or the eye inside it)
+ * and stands for its step, the last one for what is left; clipping weights samples and never moves them.
+ * MTM_ARGUMENT for an unknown renderer, MTM_LIMIT for a step that needs more than 10⁶ samples along a ray,
+ * MTM_MEMORY, MTM_CANCELLED. Sources: paper section 5, Max (TVCG 1(2), 1995), Levoy (CG&A 8(3), 1988). */
+MTM_API MTM_CHECK mtm_status mtm_render(const char *renderer, const mtm_volume *volume,
+                                        const mtm_transfer *transfer, const mtm_camera *camera,
+                                        const mtm_render_options *options, const mtm_progress *progress,
+                                        mtm_image *image, mtm_error *error);
+
+/* Adds a reflecting background behind everything: c += (1 - A) · coefficients, A = 1 (paper eq. 5, first term). */
+MTM_API void mtm_image_put_background(mtm_image *image, const float *coefficients);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

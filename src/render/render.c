@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * The table of renderers and what they share. */
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "render/renderer.h"
+#include "transfer/table.h"
+
+static const mtm_renderer *const renderers[] = {&mtm_renderer_raycast};
+enum { RENDERER_COUNT = sizeof renderers / sizeof *renderers };
+
+mtm_render_options mtm_render_defaults(void) {
+    return (mtm_render_options){
+        .width = 512, /* the paper's picture size */
+        .height = 512,
+        .step = 0.5, /* half a voxel: the sampling rate that a linear transfer function needs (Nyquist) */
+        .blend = MTM_BLEND_COMPOSITE,
+        .termination = 1.0 / 1024, /* invisible even where a light is raised a few times afterwards */
+        .shading = {.ambient = 0.3,
+                    .diffuse = 0.7,
+                    .specular = 0.3,
+                    .shininess = 32,
+                    .is_headlight = true,
+                    .direction = {0, 0, 1},
+                    .gradient_threshold = 0.01}, /* noise of 8-bit scans stays below it */
+        .clip_high = {1, 1, 1},
+    };
+}
+
+const char *mtm_renderer_name(int index) {
+    return index >= 0 && index < RENDERER_COUNT ? renderers[index]->name : NULL;
+}
+
+static mtm_status fail_unknown(const char *name, mtm_error *error) {
+    char known[128] = "";
+    for (size_t i = 0; i < RENDERER_COUNT; i++) {
+        const size_t length = strlen(known);
+        (void)snprintf(known + length, sizeof known - length, "%s%s", i > 0 ? ", " : "", renderers[i]->name);
+    }
+    return mtm_fail(error, MTM_ARGUMENT, "renderer \"%s\" is not known; known are %s", name, known);
+}
+
+mtm_status mtm_render(const char *renderer, const mtm_volume *volume, const mtm_transfer *transfer,
+                      const mtm_camera *camera, const mtm_render_options *options,
+                      const mtm_progress *progress, mtm_image *image, mtm_error *error) {
+    assert(image->width == options->width && image->height == options->height);
+    assert(image->dimension == transfer->dimension && image->lanes == transfer->lanes);
+    for (size_t i = 0; i < RENDERER_COUNT; i++)
+        if (strcmp(renderer, renderers[i]->name) == 0)
+            return renderers[i]->render(volume, transfer, camera, options, progress, image, error);
+    return fail_unknown(renderer, error);
+}
+
+void mtm_image_put_background(mtm_image *image, const float *coefficients) {
+    const size_t pixel_count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < pixel_count; i++) {
+        float *pixel = image->pixels + i * (size_t)image->lanes;
+        const float transmittance = 1 - pixel[image->dimension];
+        for (int k = 0; k < image->dimension; k++) pixel[k] += transmittance * coefficients[k];
+        pixel[image->dimension] = 1;
+    }
+}
