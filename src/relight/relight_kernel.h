@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * The inner loop of postillumination. */
+#ifndef METAMER_RELIGHT_RELIGHT_KERNEL_H
+#define METAMER_RELIGHT_RELIGHT_KERNEL_H
+
+#include "metamer/relight.h"
+
+typedef struct mtm_relight_pass {
+    int dimension, lanes;
+    bool is_opaque;
+    float background[3];
+    float matrix[3][MTM_DIMENSION_MAX + 1]; /* zero in the lanes behind the coefficients */
+} mtm_relight_pass;
+
+/* `count` pixels of `lanes` floats to as many of red, green, blue, alpha. */
+void mtm_relight_pixels(const mtm_relight_pass *pass, const float *pixels, size_t count, float *rgba);
+
+#endif
