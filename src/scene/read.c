@@ -1,0 +1,511 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * Reading scene documents, version 1: one function per object of the document. docs/scene.md is the specification. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "base/json.h"
+#include "base/memory.h"
+#include "palette/json.h"
+#include "scene/scene.h"
+
+enum { POINTS_MAX = 4096, STOPS_MAX = 4096 };
+
+typedef struct scene_reader {
+    mtm_json_reader *json;
+    mtm_scene *scene;
+} scene_reader;
+
+/* Steps into an object of the document and checks its keys; *place is for mtm_json_leave. */
+static const json_t *enter_object(mtm_json_reader *json, const json_t *parent, const char *key,
+                                  const char *const *keys, size_t key_count, size_t *place) {
+    const json_t *object = json->status == MTM_OK ? json_object_get(parent, key) : NULL;
+    *place = json->path_length;
+    if (object == NULL) return NULL;
+    *place = mtm_json_enter(json, key);
+    return mtm_json_expect_object(json, object, keys, key_count) ? object : NULL;
+}
+#define KEYS(array) (array), sizeof(array) / sizeof *(array)
+
+static void copy_text(mtm_json_reader *json, const char *text, char **copy) {
+    *copy = mtm_text_copy(text);
+    if (*copy == NULL) json->status = mtm_fail_memory(json->error, "the scene", strlen(text));
+}
+
+static void read_volume_size(scene_reader *reader, const json_t *object) {
+    double size[3];
+    if (!mtm_json_numbers(reader->json, object, "size", 3, (mtm_json_range){1, 2147483647}, size)) return;
+    for (int axis = 0; axis < 3; axis++) reader->scene->volume_size[axis] = (int)size[axis];
+}
+
+static void read_volume(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"file", "size", "sha256"};
+    mtm_json_reader *json = reader->json;
+    const char *file = NULL;
+    const char *hash = NULL;
+    size_t place = 0;
+    if (mtm_json_required(json, document, "volume") == NULL) return;
+    const json_t *object = enter_object(json, document, "volume", KEYS(keys), &place);
+    if (object != NULL && mtm_json_required(json, object, "file") != NULL &&
+        mtm_json_text(json, object, "file", &file))
+        copy_text(json, file, &reader->scene->volume_file);
+    if (object != NULL) read_volume_size(reader, object);
+    if (object != NULL && mtm_json_text(json, object, "sha256", &hash)) {
+        if (strlen(hash) != 64 || strspn(hash, "0123456789abcdef") != 64)
+            mtm_json_fail(json, "sha256", "is \"%.70s\", must be 64 lower-case hexadecimal digits", hash);
+        else
+            (void)snprintf(reader->scene->volume_sha256, sizeof reader->scene->volume_sha256, "%s", hash);
+    }
+    mtm_json_leave(json, place);
+}
+
+static void read_palette_file(scene_reader *reader, const char *file) {
+    mtm_error reason;
+    char *path = mtm_path_join(reader->scene->folder, file);
+    if (path == NULL) {
+        reader->json->status = mtm_fail_memory(reader->json->error, "the scene", strlen(file));
+        return;
+    }
+    if (mtm_palette_read(path, &reader->scene->palette, &reason) != MTM_OK)
+        mtm_json_fail(reader->json, "file", "is not usable: %s", reason.message);
+    free(path);
+}
+
+static void read_palette(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"file", "materials", "lights"};
+    mtm_json_reader *json = reader->json;
+    const char *file = NULL;
+    size_t place = 0;
+    const json_t *object = enter_object(json, document, "palette", KEYS(keys), &place);
+    if (object != NULL && json_object_get(object, "file") == NULL)
+        mtm_palette_from_json(json, object, reader->scene->folder, &reader->scene->palette);
+    else if (object != NULL && json_object_size(object) > 1)
+        mtm_json_fail(json, "file",
+                      "stands beside inline materials or lights; a palette is one or the other");
+    else if (object != NULL && mtm_json_text(json, object, "file", &file))
+        read_palette_file(reader, file);
+    else if (object == NULL && json->status == MTM_OK)
+        json->status = mtm_palette_defaults(&reader->scene->palette, json->error);
+    mtm_json_leave(json, place);
+    if (json->status == MTM_OK && reader->scene->palette.light_count == 0)
+        mtm_json_fail(json, "palette", "has no lights; at least one is needed");
+}
+
+/* Index of the material a key names, or -1 after a failure. */
+static int read_material(scene_reader *reader, const json_t *object, const char *key) {
+    const char *name = NULL;
+    if (mtm_json_required(reader->json, object, key) == NULL) return -1;
+    if (!mtm_json_text(reader->json, object, key, &name)) return -1;
+    const int material = mtm_palette_find_material(&reader->scene->palette, name);
+    if (material < 0)
+        mtm_json_fail(reader->json, key, "is \"%.64s\", which is no material of the palette", name);
+    return material;
+}
+
+static void read_point(scene_reader *reader, const json_t *object, mtm_transfer_point *point) {
+    static const char *const keys[] = {"value", "opacity", "emission", "material"};
+    mtm_json_reader *json = reader->json;
+    if (!mtm_json_expect_object(json, object, KEYS(keys))) return;
+    if (mtm_json_required(json, object, "value") == NULL ||
+        mtm_json_required(json, object, "opacity") == NULL)
+        return;
+    (void)mtm_json_number(json, object, "value", mtm_json_any, &point->value);
+    (void)mtm_json_number(json, object, "opacity", mtm_json_unit, &point->opacity);
+    point->has_emission = mtm_json_number(json, object, "emission", mtm_json_not_negative, &point->emission);
+    point->material = read_material(reader, object, "material");
+}
+
+static void read_points(scene_reader *reader, const json_t *transfer) {
+    mtm_json_reader *json = reader->json;
+    mtm_scene *scene = reader->scene;
+    const json_t *points = mtm_json_required(json, transfer, "points");
+    if (points == NULL) return;
+    const size_t count = json_array_size(points);
+    if (!json_is_array(points) || count < 1 || count > POINTS_MAX) {
+        mtm_json_fail(json, "points", "must be an array of 1 to %d points", POINTS_MAX);
+        return;
+    }
+    scene->points = mtm_allocate(count, sizeof *scene->points);
+    if (scene->points == NULL) {
+        json->status = mtm_fail_memory(json->error, "the scene", count * sizeof *scene->points);
+        return;
+    }
+    scene->point_count = (int)count;
+    const size_t place = mtm_json_enter(json, "points");
+    for (size_t i = 0; i < count && json->status == MTM_OK; i++) {
+        const size_t element = mtm_json_enter_index(json, i);
+        read_point(reader, json_array_get(points, i), &scene->points[i]);
+        if (json->status == MTM_OK && i > 0 && scene->points[i].value < scene->points[i - 1].value)
+            mtm_json_fail(json, "value", "is %g, below the point before it (%g); points rise in value",
+                          scene->points[i].value, scene->points[i - 1].value);
+        mtm_json_leave(json, element);
+    }
+    mtm_json_leave(json, place);
+}
+
+static const mtm_json_range positive = {1e-300, HUGE_VAL};
+
+static void read_transfer(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"opacity_length", "points"};
+    mtm_json_reader *json = reader->json;
+    size_t place = 0;
+    if (mtm_json_required(json, document, "transfer") == NULL) return;
+    const json_t *object = enter_object(json, document, "transfer", KEYS(keys), &place);
+    if (object != NULL) {
+        (void)mtm_json_number(json, object, "opacity_length", positive, &reader->scene->opacity_length);
+        read_points(reader, object);
+    }
+    mtm_json_leave(json, place);
+}
+
+/* Three numbers, not all zero. */
+static bool read_direction(mtm_json_reader *json, const json_t *object, const char *key,
+                           double direction[3]) {
+    double read[3];
+    if (!mtm_json_numbers(json, object, key, 3, mtm_json_any, read)) return false;
+    const double length = sqrt(read[0] * read[0] + read[1] * read[1] + read[2] * read[2]);
+    if (!(length > 0) || !isfinite(length)) {
+        mtm_json_fail(json, key, "is [%g, %g, %g], which points nowhere", read[0], read[1], read[2]);
+        return false;
+    }
+    memcpy(direction, read, sizeof read);
+    return true;
+}
+
+static void read_camera(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"azimuth", "elevation", "distance", "target", "up", "fov", "height"};
+    mtm_json_reader *json = reader->json;
+    mtm_camera *camera = &reader->scene->camera;
+    size_t place = 0;
+    const json_t *object = enter_object(json, document, "camera", KEYS(keys), &place);
+    if (object != NULL) {
+        (void)mtm_json_number(json, object, "azimuth", mtm_json_any, &camera->azimuth);
+        (void)mtm_json_number(json, object, "elevation", mtm_json_any, &camera->elevation);
+        (void)mtm_json_number(json, object, "distance", positive, &camera->distance);
+        camera->has_target = mtm_json_numbers(json, object, "target", 3, mtm_json_any, camera->target);
+        (void)read_direction(json, object, "up", camera->up);
+        (void)mtm_json_number(json, object, "fov", (mtm_json_range){0, 175}, &camera->fov);
+        (void)mtm_json_number(json, object, "height", mtm_json_not_negative, &camera->height);
+    }
+    mtm_json_leave(json, place);
+}
+
+static void read_shading(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"ambient",   "diffuse",   "specular",
+                                       "shininess", "direction", "gradient_threshold"};
+    mtm_json_reader *json = reader->json;
+    mtm_shading *shading = &reader->scene->render.shading;
+    size_t place = 0;
+    const json_t *object = enter_object(json, document, "shading", KEYS(keys), &place);
+    if (object != NULL) {
+        (void)mtm_json_number(json, object, "ambient", mtm_json_not_negative, &shading->ambient);
+        (void)mtm_json_number(json, object, "diffuse", mtm_json_not_negative, &shading->diffuse);
+        (void)mtm_json_number(json, object, "specular", mtm_json_not_negative, &shading->specular);
+        (void)mtm_json_number(json, object, "shininess", mtm_json_not_negative, &shading->shininess);
+        (void)mtm_json_number(json, object, "gradient_threshold", mtm_json_not_negative,
+                              &shading->gradient_threshold);
+        static const char *const names[] = {"headlight"};
+        int choice = 0;
+        if (json_is_array(json_object_get(object, "direction")))
+            shading->is_headlight = !read_direction(json, object, "direction", shading->direction);
+        else
+            (void)mtm_json_choice(json, object, "direction", KEYS(names), &choice);
+    }
+    mtm_json_leave(json, place);
+}
+
+static void read_clip(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"box"};
+    mtm_json_reader *json = reader->json;
+    mtm_render_options *render = &reader->scene->render;
+    size_t place = 0;
+    const json_t *object = enter_object(json, document, "clip", KEYS(keys), &place);
+    const json_t *box = object == NULL ? NULL : mtm_json_required(json, object, "box");
+    if (box != NULL && (!json_is_array(box) || json_array_size(box) != 2)) {
+        mtm_json_fail(json, "box", "must be two corners, [[x,y,z],[x,y,z]]");
+    } else if (box != NULL) {
+        /* The reader's functions take keys, so the corners are given some. */
+        json_t *corners =
+            json_pack("{s:O, s:O}", "box[0]", json_array_get(box, 0), "box[1]", json_array_get(box, 1));
+        (void)mtm_json_numbers(json, corners, "box[0]", 3, mtm_json_unit, render->clip_low);
+        (void)mtm_json_numbers(json, corners, "box[1]", 3, mtm_json_unit, render->clip_high);
+        json_decref(corners);
+        for (int axis = 0; axis < 3; axis++)
+            if (json->status == MTM_OK && !(render->clip_low[axis] < render->clip_high[axis]))
+                mtm_json_fail(json, "box",
+                              "has a first corner that is not below the second along axis %d (%g, %g)", axis,
+                              render->clip_low[axis], render->clip_high[axis]);
+    }
+    mtm_json_leave(json, place);
+}
+
+static void read_background(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"srgb", "material"};
+    mtm_json_reader *json = reader->json;
+    mtm_scene *scene = reader->scene;
+    const char *color = NULL;
+    mtm_rgb parsed;
+    mtm_error reason;
+    size_t place = 0;
+    if (json_is_null(json_object_get(document, "background"))) return;
+    const json_t *object = enter_object(json, document, "background", KEYS(keys), &place);
+    if (object != NULL && json_object_size(object) != 1) {
+        mtm_json_fail(json, NULL, "must have either \"srgb\" or \"material\"");
+    } else if (object != NULL && mtm_json_text(json, object, "srgb", &color)) {
+        scene->background = MTM_BACKGROUND_COLOR;
+        if (mtm_rgb_parse(color, &parsed, &reason) != MTM_OK)
+            mtm_json_fail(json, "srgb", "is no color: %s", reason.message);
+        (void)snprintf(scene->background_srgb, sizeof scene->background_srgb, "%s", color);
+    } else if (object != NULL && json->status == MTM_OK) {
+        scene->background = MTM_BACKGROUND_MATERIAL;
+        scene->background_material = read_material(reader, object, "material");
+    }
+    mtm_json_leave(json, place);
+}
+
+static bool is_renderer_known(const char *name) {
+    for (int i = 0; mtm_renderer_name(i) != NULL; i++)
+        if (strcmp(name, mtm_renderer_name(i)) == 0) return true;
+    return false;
+}
+
+static void read_names(mtm_json_reader *json, const json_t *object, mtm_scene *scene) {
+    const char *renderer = NULL;
+    const char *basis = NULL;
+    if (mtm_json_text(json, object, "renderer", &renderer)) {
+        if (!is_renderer_known(renderer))
+            mtm_json_fail(json, "renderer", "is \"%.64s\", known is \"%s\"", renderer, mtm_renderer_name(0));
+        (void)snprintf(scene->renderer, sizeof scene->renderer, "%s", renderer);
+    }
+    if (!mtm_json_text(json, object, "basis", &basis)) return;
+    mtm_error reason;
+    mtm_basis *probe = NULL;
+    const mtm_illumination dark = {.light = mtm_spectrum_constant(0)};
+    if (mtm_basis_create(basis, 0, NULL, &dark, &probe, &reason) != MTM_OK)
+        mtm_json_fail(json, "basis", "is not usable: %s", reason.message);
+    mtm_basis_destroy(probe);
+    (void)snprintf(scene->basis, sizeof scene->basis, "%s", basis);
+}
+
+static void read_render(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"renderer", "basis", "size", "step", "blend", "jitter", "termination"};
+    static const char *const blends[] = {"composite", "sum", "maximum"};
+    mtm_json_reader *json = reader->json;
+    mtm_render_options *render = &reader->scene->render;
+    double size[2];
+    int blend = 0;
+    size_t place = 0;
+    const json_t *object = enter_object(json, document, "render", KEYS(keys), &place);
+    if (object != NULL) {
+        read_names(json, object, reader->scene);
+        if (mtm_json_numbers(json, object, "size", 2, (mtm_json_range){1, MTM_IMAGE_EDGE_MAX}, size)) {
+            render->width = (int)size[0];
+            render->height = (int)size[1];
+        }
+        (void)mtm_json_number(json, object, "step", (mtm_json_range){1e-6, 1e6}, &render->step);
+        if (mtm_json_choice(json, object, "blend", KEYS(blends), &blend)) render->blend = (mtm_blend)blend;
+        (void)mtm_json_boolean(json, object, "jitter", &render->jitter);
+        (void)mtm_json_number(json, object, "termination", mtm_json_unit, &render->termination);
+    }
+    mtm_json_leave(json, place);
+}
+
+static void read_display(scene_reader *reader, const json_t *document) {
+    static const char *const whites[] = {"none", "light"};
+    mtm_json_reader *json = reader->json;
+    const char *name = NULL;
+    int white = 0;
+    if (mtm_json_text(json, document, "observer", &name)) {
+        mtm_observer observer;
+        mtm_error reason;
+        if (mtm_observer_get(name, &observer, &reason) != MTM_OK)
+            mtm_json_fail(json, "observer", "is not usable: %s", reason.message);
+        (void)snprintf(reader->scene->observer, sizeof reader->scene->observer, "%s", name);
+    }
+    if (mtm_json_choice(json, document, "white", KEYS(whites), &white))
+        reader->scene->is_white_adapted = white == 1;
+}
+
+/* Index of the light a key of `weights` or `bulbs` names, or -1 after a failure. */
+static int find_light(scene_reader *reader, const char *name) {
+    const int light = mtm_palette_find_light(&reader->scene->palette, name);
+    if (light < 0) mtm_json_fail(reader->json, name, "is no light of the palette");
+    return light;
+}
+
+static void read_weights(scene_reader *reader, const json_t *object, mtm_light_mix *mix) {
+    mtm_json_reader *json = reader->json;
+    const json_t *weights = json->status == MTM_OK ? json_object_get(object, "weights") : NULL;
+    const char *name = NULL;
+    json_t *weight = NULL;
+    if (weights == NULL) return;
+    const size_t place = mtm_json_enter(json, "weights");
+    if (!json_is_object(weights)) mtm_json_fail(json, NULL, "must be an object of light names and weights");
+    for (int i = 0; i < reader->scene->palette.light_count; i++) mix->weights[i] = 0;
+    json_object_foreach((json_t *)weights, name, weight) {
+        const int light = json->status == MTM_OK ? find_light(reader, name) : -1;
+        if (light >= 0)
+            (void)mtm_json_number(json, weights, name, mtm_json_not_negative, &mix->weights[light]);
+    }
+    mtm_json_leave(json, place);
+}
+
+static void read_bulbs(scene_reader *reader, const json_t *dial, mtm_light_mix *mix) {
+    static const char *const keys[] = {"at", "on"};
+    mtm_json_reader *json = reader->json;
+    const json_t *bulbs = json->status == MTM_OK ? json_object_get(dial, "bulbs") : NULL;
+    const char *name = NULL;
+    json_t *object = NULL;
+    if (bulbs == NULL) return;
+    const size_t place = mtm_json_enter(json, "bulbs");
+    if (!json_is_object(bulbs)) mtm_json_fail(json, NULL, "must be an object of light names and bulbs");
+    json_object_foreach((json_t *)bulbs, name, object) {
+        mtm_bulb bulb = {.light = json->status == MTM_OK ? find_light(reader, name) : -1, .is_on = true};
+        if (bulb.light < 0) break;
+        const size_t element = mtm_json_enter(json, name);
+        if (mtm_json_expect_object(json, object, KEYS(keys)) &&
+            mtm_json_required(json, object, "at") != NULL) {
+            (void)mtm_json_numbers(json, object, "at", 2, mtm_json_any, bulb.at);
+            (void)mtm_json_boolean(json, object, "on", &bulb.is_on);
+            mix->bulbs[mix->bulb_count++] = bulb;
+        }
+        mtm_json_leave(json, element);
+    }
+    mtm_json_leave(json, place);
+}
+
+/* The keys that the scene's lights and every stop have in common. */
+static void read_mix(scene_reader *reader, const json_t *object, mtm_light_mix *mix) {
+    static const char *const dial_keys[] = {"dot", "bulbs"};
+    mtm_json_reader *json = reader->json;
+    size_t place = 0;
+    read_weights(reader, object, mix);
+    (void)mtm_json_number(json, object, "intensity", mtm_json_not_negative, &mix->intensity);
+    const json_t *dial = enter_object(json, object, "dial", KEYS(dial_keys), &place);
+    if (dial != NULL) {
+        mix->has_dot = mtm_json_numbers(json, dial, "dot", 2, mtm_json_any, mix->dot);
+        read_bulbs(reader, dial, mix);
+    }
+    mtm_json_leave(json, place);
+}
+
+static void read_stop(scene_reader *reader, const json_t *object, mtm_stop *stop) {
+    static const char *const keys[] = {"name", "weights", "intensity", "dial"};
+    mtm_json_reader *json = reader->json;
+    const char *name = NULL;
+    if (!mtm_json_expect_object(json, object, KEYS(keys))) return;
+    if (mtm_json_required(json, object, "name") == NULL || mtm_json_required(json, object, "weights") == NULL)
+        return;
+    if (!mtm_json_text(json, object, "name", &name)) return;
+    if (strlen(name) > MTM_NAME_MAX)
+        mtm_json_fail(json, "name", "has %zu bytes, at most %d are allowed", strlen(name), MTM_NAME_MAX);
+    for (const mtm_stop *other = reader->scene->stops; other < stop; other++)
+        if (strcmp(other->name, name) == 0)
+            mtm_json_fail(json, "name", "\"%s\" is an earlier stop's, too", name);
+    (void)snprintf(stop->name, sizeof stop->name, "%s", name);
+    read_mix(reader, object, &stop->mix);
+}
+
+static void read_stops(scene_reader *reader, const json_t *lights) {
+    mtm_json_reader *json = reader->json;
+    mtm_scene *scene = reader->scene;
+    const json_t *stops = json->status == MTM_OK ? json_object_get(lights, "stops") : NULL;
+    if (stops == NULL) return;
+    const size_t count = json_array_size(stops);
+    if (!json_is_array(stops) || count > STOPS_MAX) {
+        mtm_json_fail(json, "stops", "must be an array of at most %d stops", STOPS_MAX);
+        return;
+    }
+    scene->stops = mtm_allocate(count, sizeof *scene->stops);
+    if (scene->stops == NULL)
+        json->status = mtm_fail_memory(json->error, "the stops", count * sizeof *scene->stops);
+    const size_t place = mtm_json_enter(json, "stops");
+    for (size_t i = 0; i < count && json->status == MTM_OK; i++) {
+        const size_t element = mtm_json_enter_index(json, i);
+        json->status = mtm_light_mix_create(scene->palette.light_count, &scene->stops[i].mix, json->error);
+        scene->stop_count = (int)i + (json->status == MTM_OK);
+        if (json->status == MTM_OK) read_stop(reader, json_array_get(stops, i), &scene->stops[i]);
+        mtm_json_leave(json, element);
+    }
+    mtm_json_leave(json, place);
+}
+
+static void read_lights(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"weights", "intensity", "dial", "stops"};
+    mtm_json_reader *json = reader->json;
+    mtm_scene *scene = reader->scene;
+    size_t place = 0;
+    if (json->status != MTM_OK) return;
+    json->status = mtm_light_mix_create(scene->palette.light_count, &scene->lights, json->error);
+    const json_t *object = enter_object(json, document, "lights", KEYS(keys), &place);
+    if (object != NULL) {
+        read_mix(reader, object, &scene->lights);
+        read_stops(reader, object);
+    }
+    mtm_json_leave(json, place);
+}
+
+/* Words that later versions of the document will use. */
+static void refuse_reserved(mtm_json_reader *json, const json_t *document) {
+    static const char *const reserved[] = {"labels", "channels", "animation", "positions"};
+    for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++)
+        if (json_object_get(document, reserved[i]) != NULL)
+            mtm_json_fail(json, reserved[i], "is not supported yet");
+}
+
+static void read_document(scene_reader *reader, const json_t *document) {
+    static const char *const keys[] = {"metamer", "volume",     "palette", "transfer", "camera", "shading",
+                                       "clip",    "background", "render",  "observer", "white",  "lights"};
+    mtm_json_reader *json = reader->json;
+    double version = 1;
+    refuse_reserved(json, document);
+    if (!mtm_json_expect_object(json, document, KEYS(keys))) return;
+    if (mtm_json_number(json, document, "metamer", mtm_json_any, &version) && version != 1)
+        mtm_json_fail(json, "metamer", "is version %g, this program reads version 1", version);
+    read_volume(reader, document);
+    read_palette(reader, document);
+    read_transfer(reader, document);
+    read_camera(reader, document);
+    read_shading(reader, document);
+    read_clip(reader, document);
+    read_background(reader, document);
+    read_render(reader, document);
+    read_display(reader, document);
+    read_lights(reader, document);
+}
+
+mtm_status mtm_scene_parse(const char *document, const char *text, const char *folder, mtm_scene **scene,
+                           mtm_error *error) {
+    json_t *object = NULL;
+    mtm_scene *made = NULL;
+    mtm_status status = mtm_json_parse(document, text, strlen(text), &object, error);
+    if (status == MTM_OK) status = mtm_scene_create(document, folder, &made, error);
+    if (status == MTM_OK) {
+        mtm_json_reader json = mtm_json_begin(document, error);
+        read_document(&(scene_reader){&json, made}, object);
+        status = json.status;
+    }
+    json_decref(object);
+    if (status != MTM_OK) {
+        mtm_scene_destroy(made);
+        return status;
+    }
+    *scene = made;
+    return MTM_OK;
+}
+
+mtm_status mtm_scene_read(const char *path, mtm_scene **scene, mtm_error *error) {
+    char *text = NULL;
+    size_t byte_count = 0;
+    mtm_status status = mtm_file_read(path, MTM_JSON_TEXT_MAX, &text, &byte_count, error);
+    if (status != MTM_OK) return status;
+    char *folder = mtm_path_folder(path);
+    status = folder == NULL ? mtm_fail_memory(error, path, strlen(path))
+                            : mtm_scene_parse(path, text, folder, scene, error);
+    free(folder);
+    free(text);
+    return status;
+}

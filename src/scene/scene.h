@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * What the files of this stage share. */
+#ifndef METAMER_SCENE_SCENE_H
+#define METAMER_SCENE_SCENE_H
+
+#include "metamer/scene.h"
+
+/* A scene with every default and nothing that has none; document and folder are copied. */
+MTM_CHECK mtm_status mtm_scene_create(const char *document, const char *folder, mtm_scene **scene,
+                                      mtm_error *error);
+
+/* A mix of `light_count` lights where only the first shines. */
+MTM_CHECK mtm_status mtm_light_mix_create(int light_count, mtm_light_mix *mix, mtm_error *error);
+MTM_CHECK mtm_status mtm_light_mix_copy(const mtm_light_mix *mix, int light_count, mtm_light_mix *copy,
+                                        mtm_error *error);
+void mtm_light_mix_free(mtm_light_mix *mix);
+
+#endif
