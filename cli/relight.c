@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * metamer relight: a finished spectral image under another light, or with other reflectances. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "task.h"
+
+static const command_option options[] = {
+    {"-o", "OUT.png", "the picture"},
+    {"--light", "NAME=WEIGHT", "this light of the palette, all that are not named off; repeatable"},
+    {"--illuminant", "NAME|FILE.csv:COLUMN",
+     "a light that the palette need not know: D65, FL11, a measured one"},
+    {"--stop", "NAME", "a mix that the scene keeps under this name"},
+    {"--palette", "NEW.json", "new reflectances (basis materials) and lights, by name"},
+    {"--observer", "NAME", "cie1931"},
+    {"--intensity", "X", "brightness of the light, default as in the scene"},
+    {"--background", "HEX|none", "\"#202020\" behind the picture; none keeps transparency"},
+    {"--threads", "N", "default: all processors"},
+    {NULL, NULL, NULL},
+};
+
+enum { LIGHTS_MAX = 256 };
+
+typedef struct relight_request {
+    const char *input, *output, *illuminant, *stop, *palette, *observer, *background;
+    const char *lights[LIGHTS_MAX]; /* NAME=WEIGHT */
+    int light_count, threads;
+    double intensity; /* -1: as in the scene */
+} relight_request;
+
+static void add_light(argument_walk *walk, const char *value, relight_request *request) {
+    if (request->light_count == LIGHTS_MAX)
+        fail_usage(walk, "more than %d times --light", LIGHTS_MAX);
+    else if (strrchr(value, '=') == NULL)
+        fail_usage(walk, "--light is \"%s\", must be NAME=WEIGHT", value);
+    else
+        request->lights[request->light_count++] = value;
+}
+
+static void read_option(argument_walk *walk, const command_option *option, const char *value,
+                        relight_request *request) {
+    if (option == NULL && request->input != NULL)
+        fail_usage(walk, "one image at a time, not \"%s\" and \"%s\"", request->input, value);
+    else if (option == NULL)
+        request->input = value;
+    else if (is_option(option, "-o"))
+        request->output = value;
+    else if (is_option(option, "--light"))
+        add_light(walk, value, request);
+    else if (is_option(option, "--illuminant"))
+        request->illuminant = value;
+    else if (is_option(option, "--stop"))
+        request->stop = value;
+    else if (is_option(option, "--palette"))
+        request->palette = value;
+    else if (is_option(option, "--observer"))
+        request->observer = value;
+    else if (is_option(option, "--intensity"))
+        (void)parse_number(walk, option, value, &request->intensity);
+    else if (is_option(option, "--background"))
+        request->background = value;
+    else
+        (void)parse_count(walk, option, value, &request->threads);
+}
+
+static mtm_status take_palette(const char *path, mtm_scene *scene, mtm_error *error) {
+    mtm_palette palette;
+    mtm_status status = mtm_palette_read(path, &palette, error);
+    if (status != MTM_OK) return status;
+    status = mtm_scene_override_palette(scene, &palette, error);
+    mtm_palette_free(&palette);
+    return status;
+}
+
+/* "FILE.csv:COLUMN" is a file, anything else a CIE name. */
+static mtm_status take_illuminant(const char *name, mtm_scene *scene, mtm_error *error) {
+    mtm_spectrum light;
+    mtm_spectrum normalized;
+    mtm_observer observer;
+    const mtm_status found = strchr(name, ':') != NULL
+                                 ? mtm_spectrum_read(".", name, MTM_KIND_LIGHT, &light, error)
+                                 : mtm_illuminant(name, &light, error);
+    if (found != MTM_OK) return found;
+    mtm_status status = mtm_observer_get("cie1931", &observer, error);
+    if (status == MTM_OK) status = mtm_light_normalize(&light, &observer, &normalized, error);
+    return status == MTM_OK ? mtm_scene_use_light(scene, name, &light, error) : status;
+}
+
+static mtm_status take_lights(const relight_request *request, mtm_scene *scene, mtm_error *error) {
+    mtm_status status = MTM_OK;
+    if (request->light_count > 0) mtm_scene_clear_weights(scene);
+    for (int i = 0; i < request->light_count && status == MTM_OK; i++) {
+        char *name = strdup(request->lights[i]);
+        char *equals = name == NULL ? NULL : strrchr(name, '=');
+        char *end = NULL;
+        if (equals == NULL) {
+            (void)snprintf(error->message, sizeof error->message, "out of memory");
+            free(name);
+            return MTM_MEMORY;
+        }
+        *equals = '\0';
+        const double weight = strtod(equals + 1, &end);
+        if (end == equals + 1 || *end != '\0' || !(weight >= 0 && weight <= 1e6)) {
+            (void)snprintf(error->message, sizeof error->message,
+                           "--light %s: weight \"%s\" must be a number from 0 to 1e6", name, equals + 1);
+            status = MTM_ARGUMENT;
+        } else {
+            status = mtm_scene_set_weight(scene, name, weight, error);
+        }
+        free(name);
+    }
+    return status;
+}
+
+static mtm_status take_background(const char *background, mtm_scene *scene, mtm_error *error) {
+    mtm_rgb color;
+    if (scene->background == MTM_BACKGROUND_MATERIAL) {
+        (void)snprintf(error->message, sizeof error->message,
+                       "--background %s: the image has the material \"%s\" behind it already", background,
+                       scene->palette.materials[scene->background_material].name);
+        return MTM_ARGUMENT;
+    }
+    if (strcmp(background, "none") == 0) {
+        scene->background = MTM_BACKGROUND_NONE;
+        return MTM_OK;
+    }
+    const mtm_status status = mtm_rgb_parse(background, &color, error);
+    if (status != MTM_OK) return status;
+    scene->background = MTM_BACKGROUND_COLOR;
+    (void)snprintf(scene->background_srgb, sizeof scene->background_srgb, "%s", background);
+    return MTM_OK;
+}
+
+/* Everything the options change is a change of the scene, so the picture can carry the scene it shows. */
+static mtm_status apply_request(const relight_request *request, mtm_scene *scene, mtm_error *error) {
+    mtm_status status = MTM_OK;
+    if (request->palette != NULL) status = take_palette(request->palette, scene, error);
+    if (status == MTM_OK && request->stop != NULL) status = mtm_scene_use_stop(scene, request->stop, error);
+    if (status == MTM_OK) status = take_lights(request, scene, error);
+    if (status == MTM_OK && request->illuminant != NULL)
+        status = take_illuminant(request->illuminant, scene, error);
+    if (status == MTM_OK && request->background != NULL)
+        status = take_background(request->background, scene, error);
+    if (request->intensity >= 0) scene->lights.intensity = request->intensity;
+    if (request->observer != NULL)
+        (void)snprintf(scene->observer, sizeof scene->observer, "%s", request->observer);
+    return status;
+}
+
+static int relight(const subcommand *command, const relight_request *request) {
+    mtm_error error = {""};
+    mtm_image *image = NULL;
+    mtm_scene *scene = NULL;
+    mtm_picture *picture = NULL;
+    mtm_status status = check_output(request->output, &error);
+    if (status == MTM_OK) status = mtm_image_read(request->input, &image, &error);
+    if (status == MTM_OK) status = mtm_scene_of_image(image, request->input, &scene, &error);
+    if (status == MTM_OK) status = apply_request(request, scene, &error);
+    if (status == MTM_OK) status = mtm_scene_relight(scene, image, request->threads, &picture, &error);
+    if (status == MTM_OK) status = write_picture(picture, scene, request->output, &error);
+    mtm_picture_destroy(picture);
+    mtm_scene_destroy(scene);
+    mtm_image_destroy(image);
+    return status == MTM_OK ? EXIT_DONE : fail_command(command, &error);
+}
+
+static int run(const subcommand *command, int argc, char **argv) {
+    relight_request request = {.intensity = -1};
+    argument_walk walk = walk_arguments(command, argc, argv);
+    const command_option *option = NULL;
+    const char *value = NULL;
+    while (next_argument(&walk, &option, &value)) read_option(&walk, option, value, &request);
+    if (walk.is_over) return walk.exit_status;
+    const int light_sources =
+        (request.light_count > 0) + (request.illuminant != NULL) + (request.stop != NULL);
+    if (request.input == NULL)
+        fail_usage(&walk, "a spectral image is needed");
+    else if (request.output == NULL)
+        fail_usage(&walk, "-o OUT.png is needed");
+    else if (light_sources > 1)
+        fail_usage(&walk, "--light, --illuminant and --stop exclude each other");
+    return walk.is_over ? walk.exit_status : relight(command, &request);
+}
+
+const subcommand relight_command = {
+    .name = "relight",
+    .arguments = "IMAGE.exr -o OUT.png [options]",
+    .summary = "Light a finished spectral image anew, without rendering.\n"
+               "Without options the picture is the one of the scene's own light.",
+    .options = options,
+    .run = run,
+};

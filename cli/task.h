@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * What several subcommands do: opening inputs of any kind, progress, writing pictures. */
+#ifndef METAMER_CLI_TASK_H
+#define METAMER_CLI_TASK_H
+
+#include "command.h"
+#include "metamer/metamer.h"
+
+/* Prints "metamer NAME: message" and returns EXIT_FAILED. */
+int fail_command(const subcommand *command, const mtm_error *error);
+
+/* A progress bar on standard error where that is a terminal, else silence. `label` is shown before it. */
+typedef struct progress_bar {
+    const char *label;
+    int shown_percent;
+    bool is_terminal;
+} progress_bar;
+mtm_progress start_progress(progress_bar *bar, const char *label);
+void end_progress(progress_bar *bar);
+
+/* What a file is, by its content (a scene by its first character). */
+typedef enum file_kind { FILE_UNREADABLE, FILE_PNG, FILE_EXR, FILE_JSON, FILE_OTHER } file_kind;
+file_kind kind_of_file(const char *path);
+bool has_extension(const char *path, const char *extension);
+
+/* The scene a file describes (a document, a picture or an image that carries one, or a volume's default scene) and its
+ * volume; `volume_path` NULL: where the scene says. */
+mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **scene, mtm_volume **volume,
+                      mtm_error *error);
+
+/* MTM_IO where the folder of an output file does not exist or cannot be written: worth knowing before long work. */
+mtm_status check_output(const char *path, mtm_error *error);
+
+/* Writes the picture with the scene it shows embedded. */
+mtm_status write_picture(const mtm_picture *picture, const mtm_scene *scene, const char *path,
+                         mtm_error *error);
+
+#endif
