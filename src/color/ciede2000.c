@@ -41,7 +41,7 @@ static double hue_difference(double h1, double h2) {
     return difference > 0 ? difference - 360 : difference + 360;
 }
 
-/* Equation 14: the mean hue on the short way round. Both colors have chroma. */
+/* Equation 14: the mean hue on the short way round. */
 static double hue_mean(double h1, double h2) {
     if (!is_beyond_half_turn(h1 - h2)) return (h1 + h2) / 2;
     return h1 + h2 < 360 ? (h1 + h2 + 360) / 2 : (h1 + h2 - 360) / 2;
@@ -61,16 +61,15 @@ double mtm_ciede2000(mtm_lab a, mtm_lab b) {
     const double chroma2 = hypot(stretch * b.a, b.b);
     const double h1 = hue_degrees(stretch * a.a, a.b);
     const double h2 = hue_degrees(stretch * b.a, b.b);
-    const bool has_gray = chroma1 * chroma2 == 0;
-    /* Equations 8 to 11: the differences. */
+    /* Equations 8 to 11: the differences. Gray has no hue, but then the hue distance is 0 whatever the angle, and
+     * with it every term that the mean hue enters; the special cases of equations 10 and 14 need no code. */
     const double lightness_difference = b.l - a.l;
     const double chroma_difference = chroma2 - chroma1;
-    const double turn = has_gray ? 0 : hue_difference(h1, h2);
-    const double hue_distance = 2 * sqrt(chroma1 * chroma2) * sin(radians(turn) / 2);
+    const double hue_distance = 2 * sqrt(chroma1 * chroma2) * sin(radians(hue_difference(h1, h2)) / 2);
     /* Equations 12 to 21: their weights at the means. */
     const double from_middle = (a.l + b.l) / 2 - 50;
     const double chroma = (chroma1 + chroma2) / 2;
-    const double hue = has_gray ? h1 + h2 : hue_mean(h1, h2);
+    const double hue = hue_mean(h1, h2);
     const double lightness_scale =
         1 + 0.015 * from_middle * from_middle / sqrt(20 + from_middle * from_middle);
     const double chroma_scale = 1 + 0.045 * chroma;

@@ -47,12 +47,39 @@ static void grays_differ_by_weighted_lightness_alone(void **state) {
     assert_float_equal(mtm_ciede2000((mtm_lab){45, 0, 0}, (mtm_lab){55, 0, 0}), 10, 1e-12);
 }
 
+static mtm_lab lab_of_hue(double degrees) {
+    const double radians = degrees * (3.14159265358979323846 / 180);
+    return (mtm_lab){50, 40 * cos(radians), 40 * sin(radians)};
+}
+
+/* At 180 degrees the mean hue is the one of a slightly smaller difference, on whichever side rounding falls. */
+static void opposite_hues_have_the_difference_of_nearly_opposite_ones(void **state) {
+    (void)state;
+    for (double degrees = 0.5; degrees < 180; degrees += 0.7) {
+        const mtm_lab color = lab_of_hue(degrees);
+        const mtm_lab opposite = {50, -color.a, -color.b};
+        const double nearly = mtm_ciede2000(color, lab_of_hue(degrees + 180 - 1e-6));
+        assert_float_equal(mtm_ciede2000(color, opposite), nearly, 1e-5);
+        assert_float_equal(mtm_ciede2000(opposite, color), nearly, 1e-5);
+    }
+}
+
+static void gray_differs_alike_from_all_hues_of_a_chroma(void **state) {
+    (void)state;
+    const double first = mtm_ciede2000((mtm_lab){50, 0, 0}, (mtm_lab){50, 0, 40});
+    assert_true(first > 10);
+    assert_float_equal(mtm_ciede2000((mtm_lab){50, 0, 0}, (mtm_lab){50, 0, -40}), first, 1e-12);
+    assert_float_equal(mtm_ciede2000((mtm_lab){50, 0, -40}, (mtm_lab){50, 0, 0}), first, 1e-12);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_34_pairs_of_sharma_have_their_published_difference),
         cmocka_unit_test(random_pairs_have_the_expected_difference),
         cmocka_unit_test(a_color_does_not_differ_from_itself),
         cmocka_unit_test(grays_differ_by_weighted_lightness_alone),
+        cmocka_unit_test(opposite_hues_have_the_difference_of_nearly_opposite_ones),
+        cmocka_unit_test(gray_differs_alike_from_all_hues_of_a_chroma),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

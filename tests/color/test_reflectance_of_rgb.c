@@ -214,6 +214,35 @@ static void no_metameric_change_makes_it_smoother(void **state) {
     assert_in_range(tried, 1000, 20000);
 }
 
+/* Sums of rough curves near the edge of what is possible, far outside sRGB: bounds are taken up and given back. */
+static void sums_of_rough_curves_have_their_smoothest_curve_too(void **state) {
+    (void)state;
+    double weights[3][N];
+    fill_weights(weights);
+    mtm_spectrum rows[3];
+    for (int k = 0; k < 3; k++) memcpy(rows[k].value, weights[k], sizeof rows[k].value);
+    uint32_t seed = 3;
+    deviation sums = {0}, optimality = {0};
+    for (int trial = 0; trial < 300; trial++) {
+        const int from = (int)(N * next_number(&seed));
+        const int to = from + 1 + (int)((N - from) * next_number(&seed));
+        const double low = 0.01 * next_number(&seed);
+        double target[3] = {0};
+        for (int i = 0; i < N; i++)
+            for (int k = 0; k < 3; k++) target[k] += weights[k][i] * (i >= from && i < to ? 1 - low : low);
+        mtm_spectrum s;
+        mtm_error error;
+        assert_ok(mtm_smoothest_curve(rows, target, &s, &error), error);
+        for (int k = 0; k < 3; k++) {
+            double sum = 0;
+            for (int i = 0; i < N; i++) sum += weights[k][i] * s.value[i];
+            check_near(&sums, sum, target[k], 1e-9, "rough curve", "sum");
+        }
+        check_near(&optimality, optimality_error(&s, weights), 0, 1e-7, "rough curve", "optimality");
+    }
+    print_message("largest sum error %.2g, optimality error %.2g\n", sums.largest, optimality.largest);
+}
+
 static void the_result_repeats_bit_by_bit(void **state) {
     (void)state;
     mtm_spectrum first, second;
@@ -258,6 +287,7 @@ int main(void) {
         cmocka_unit_test(white_is_all_ones_black_all_zeros_and_gray_constant),
         cmocka_unit_test(complements_have_complementary_reflectances),
         cmocka_unit_test(no_metameric_change_makes_it_smoother),
+        cmocka_unit_test(sums_of_rough_curves_have_their_smoothest_curve_too),
         cmocka_unit_test(the_result_repeats_bit_by_bit),
         cmocka_unit_test(colors_outside_the_cube_are_refused),
         cmocka_unit_test(sums_that_no_bounded_curve_has_are_refused),
