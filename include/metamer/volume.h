@@ -26,9 +26,8 @@ typedef enum mtm_voxel_type {
 /* Where voxels are. World units are the file's own (mm in medical files, then in LPS). */
 typedef struct mtm_grid {
     int size[3]; /* voxels along each axis, ≥ 1, x fastest in memory */
-    double
-        axes[3]
-            [3]; /* axes[a]: world vector from a voxel to its neighbour along axis a, linearly independent */
+    /* axes[a]: world vector from a voxel to its neighbour along axis a, linearly independent */
+    double axes[3][3];
     double origin[3]; /* world position of the center of voxel (0, 0, 0) */
     bool is_oriented; /* the axes are anatomical (LPS), not just "as stored" */
     char unit[16];    /* "mm", or "" where the file does not say */
@@ -80,7 +79,7 @@ MTM_API void mtm_volume_range(const mtm_volume *volume, double *smallest, double
 MTM_API void mtm_volume_histogram(const mtm_volume *volume, int bin_count, uint64_t *counts);
 
 /* SHA-256 of the stored voxels, little-endian, x fastest, as 64 lower-case hexadecimal digits and a 0. The same
- * for a file however it was compressed. */
+ * for a file however it was compressed. Empty text where memory for the computation is missing. */
 MTM_API void mtm_volume_sha256(const mtm_volume *volume, char hex[65]);
 
 /* Reads any volume format this library knows, recognised by content, not by name: NRRD (attached or detached,
