@@ -87,19 +87,30 @@ static void every_spelling_of_every_type_is_known(void **state) {
 
 static void both_byte_orders_give_the_same_values(void **state) {
     (void)state;
-    const char *const header =
-        "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: %s\n\n";
-    const char *const orders[] = {"little", "big"};
-    const unsigned char bytes[2][4] = {{0x02, 0x01, 0xff, 0xff}, {0x01, 0x02, 0xff, 0xff}};
-    for (int n = 0; n < 2; n++) {
+    const struct {
+        const char *type, *order;
+        char bytes[9];
+        double value;
+    } cases[] = {
+        {"short", "little", "\x02\x01", 258},
+        {"short", "big", "\xff\xfe", -2},
+        {"uint", "little", "\x04\x03\x02\x01", 0x01020304},
+        {"uint", "big", "\x01\x02\x03\x04", 0x01020304},
+        {"float", "big", "\x3f\xc0\x00\x00", 1.5},
+        {"int64", "little", "\x08\x07\x06\x05\x04\x00\x00\x00", 0x0405060708},
+        {"int64", "big", "\x00\x00\x00\x04\x05\x06\x07\x08", 0x0405060708},
+        {"double", "little", "\x00\x00\x00\x00\x00\x00\xf8\xbf", -1.5},
+    };
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         char text[128];
-        (void)snprintf(text, sizeof text, header, orders[n]);
-        scratch_write("a.nrrd", text, bytes[n], 4);
+        (void)snprintf(text, sizeof text,
+                       "NRRD0004\ntype: %s\ndimension: 3\nsizes: 1 1 1\nencoding: raw\nendian: %s\n\n",
+                       cases[n].type, cases[n].order);
+        scratch_write("a.nrrd", text, cases[n].bytes, 8);
         mtm_volume *volume = NULL;
         mtm_error error;
         assert_ok(mtm_volume_read("a.nrrd", &volume, &error), error);
-        assert_true(mtm_volume_value(volume, 0, 0, 0) == 258.0);
-        assert_true(mtm_volume_value(volume, 1, 0, 0) == -1.0);
+        assert_true(mtm_volume_value(volume, 0, 0, 0) == cases[n].value);
         mtm_volume_destroy(volume);
     }
 }
