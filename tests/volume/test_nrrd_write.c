@@ -44,6 +44,7 @@ static void every_grid_comes_back_bit_for_bit(void **state) {
     mtm_grid grids[5];
     for (int n = 0; n < 5; n++) grids[n] = mtm_grid_defaults(2, 2, 2);
     for (int axis = 0; axis < 3; axis++) grids[1].axes[axis][axis] = 0.1 * (axis + 1);
+    strcpy(grids[1].unit, "mm");
     grids[2].origin[2] = -1.0 / 3.0;
     grids[3].axes[0][1] = -0.0; /* equal to the default, but not the same bits */
     grids[3].axes[1][1] = -2.0;
@@ -150,6 +151,23 @@ static void a_failed_write_leaves_nothing_behind(void **state) {
     mtm_volume_destroy(volume);
 }
 
+/* The old data must not have been replaced when the new header turns out not to fit. */
+static void a_failed_header_leaves_older_data_alone(void **state) {
+    (void)state;
+    scratch_clear();
+    mtm_error error;
+    const mtm_grid grid = mtm_grid_defaults(2, 2, 2);
+    mtm_volume *volume = scratch_volume(MTM_VOXEL_UINT8, &grid);
+    const mtm_volume_write_options options = {.is_gzip = false};
+    scratch_write("a.raw", "older data", NULL, 0);
+    assert_int_equal(symlink("/dev/full", "a.nhdr"), 0);
+    assert_fails(mtm_volume_write(volume, "a.nhdr", &options, &error), MTM_IO, error, "No space left");
+    char bytes[32];
+    assert_int_equal(read_back("a.raw", bytes, sizeof bytes), 10);
+    assert_memory_equal(bytes, "older data", 10);
+    mtm_volume_destroy(volume);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_type_encoding_and_order_comes_back),
@@ -158,6 +176,7 @@ int main(void) {
         cmocka_unit_test(the_same_volume_gives_the_same_bytes),
         cmocka_unit_test(what_nrrd_cannot_state_is_refused),
         cmocka_unit_test(a_failed_write_leaves_nothing_behind),
+        cmocka_unit_test(a_failed_header_leaves_older_data_alone),
     };
     return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }
