@@ -79,7 +79,8 @@ MTM_API MTM_CHECK mtm_status mtm_scene_text_of_png(const char *path, char **scen
 MTM_API bool mtm_file_is_png(const char *path);
 MTM_API bool mtm_file_is_exr(const char *path);
 
-/* How far two pictures are apart: over black, clipped to 0..1 and encoded, all channels of all pixels. */
+/* How far two pictures are apart: over black, clipped to 0..1 (what is not a number counts as 0) and encoded, all
+ * channels of all pixels. */
 typedef struct mtm_comparison {
     double max_error, mean_error;                        /* absolute differences of encoded channels, 0..1 */
     double psnr_db;                                      /* capped at 200, the value of equal pictures */

@@ -13,8 +13,7 @@ void mtm_exr_stay_silent(exr_const_context_t context, exr_result_t code, const c
 static mtm_status status_of(exr_result_t result) {
     switch (result) {
     case EXR_ERR_OUT_OF_MEMORY: return MTM_MEMORY;
-    case EXR_ERR_FILE_ACCESS:
-    case EXR_ERR_WRITE_IO: return MTM_IO;
+    case EXR_ERR_FILE_ACCESS: return MTM_IO;
     default: return MTM_FORMAT; /* EXR_ERR_READ_IO too: a file that ends too early */
     }
 }

@@ -20,7 +20,7 @@
 /* OpenEXR's error handler that says nothing: the result codes become sentences of our own. */
 void mtm_exr_stay_silent(exr_const_context_t context, exr_result_t code, const char *message);
 
-/* Fails with the status that belongs to a result of OpenEXR: `what` was done with the file `path`. */
+/* Fails with the status that belongs to a result of reading with OpenEXR: `what` is wrong with the file `path`. */
 mtm_status mtm_exr_fail(mtm_error *error, exr_result_t result, const char *path, const char *what);
 
 /* The reader behind mtm_image_read: `stream` can seek and stays open, `path` names it in messages. */

@@ -193,7 +193,8 @@ static mtm_status fail_write(const exr_writer *writer, exr_result_t result, cons
                              mtm_error *error) {
     if (writer->reason != 0)
         return mtm_fail(error, MTM_IO, "%s: cannot be written: %s", path, strerror(writer->reason));
-    return mtm_exr_fail(error, result, path, "cannot be written as OpenEXR");
+    return mtm_fail(error, result == EXR_ERR_OUT_OF_MEMORY ? MTM_MEMORY : MTM_IO, "%s: cannot be written: %s",
+                    path, exr_get_default_error_message(result));
 }
 
 mtm_status mtm_image_write(const mtm_image *image, const char *path, const mtm_image_write_options *options,
