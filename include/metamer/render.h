@@ -19,7 +19,9 @@ typedef enum mtm_blend {
 } mtm_blend;
 
 /* Blinn–Phong with the normal turned to the viewer: ρ · (ambient + diffuse · n·l) + white · specular · (n·h)^shininess.
- * Unshaded is ambient 1, diffuse 0, specular 0. */
+ * Highlights belong to matter that absorbs: they are weighted with the smaller of emission and extinction, so that an
+ * X-ray material (emission without opacity) that a light makes black disappears. Unshaded is ambient 1, diffuse 0,
+ * specular 0. */
 typedef struct mtm_shading {
     double ambient, diffuse, specular; /* ≥ 0 */
     double shininess;                  /* ≥ 0 */

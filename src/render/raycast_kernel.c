@@ -215,13 +215,14 @@ ALWAYS_INLINE void add_sample(const mtm_raycast *raycast, const ray_span *ray, c
 
     /* ∫T over the sample is (1 - e^-τl)/τ; the material's emission is constant in it. */
     const double lost = expm1(-extinction * length);
-    const double scattered = emission * (extinction > 0 ? -lost / extinction : length);
-    if (scattered > 0) {
+    const double seen = extinction > 0 ? -lost / extinction : length;
+    if (emission > 0) {
         const sample_shade shade = shade_sample(raycast, ray, place, loaded);
         const mtm_transfer_segment *segment = &transfer->segments[node->segment];
         const float share = (position - segment->begin) * segment->inverse_length;
-        add_material(sum, segment, share, sum->transmittance * scattered * shade.material, lanes);
-        sum->highlight += sum->transmittance * scattered * shade.white;
+        add_material(sum, segment, share, sum->transmittance * emission * seen * shade.material, lanes);
+        /* Only matter that absorbs can shine: an X-ray material made black must vanish, highlights and all. */
+        sum->highlight += sum->transmittance * fmin(emission, extinction) * seen * shade.white;
     }
     sum->transmittance += sum->transmittance * lost;
 }
