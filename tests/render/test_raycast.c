@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * The raycaster against closed forms (Max, "Optical models for direct volume rendering", TVCG 1(2), 1995). */
-#include "render/fixture.h"
+#include "fixture.h"
 
 static double half(const double world[3]) {
     (void)world;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * Postillumination against an educational renderer that lights every sample directly: no basis, no table of nodes, no
  * skipping, gradients by six extra interpolations. Paper eqs. 4 to 6. */
-#include "render/fixture.h"
+#include "fixture.h"
 
 enum { WIDTH = 24, HEIGHT = 18 };
 
