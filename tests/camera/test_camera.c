@@ -44,6 +44,11 @@ static void up_turns_the_whole_frame_the_shortest_way(void **state) {
     assert_vector(view.eye, 1, 1 - 10, 1);
     assert_vector(view.up, 0, 0, 1);
     assert_vector(view.right, 1, 0, 0);
+    memcpy(camera.up, (const double[3]){1, 0, 0}, sizeof camera.up);
+    view = mtm_camera_view(&camera, &grid);
+    assert_vector(view.eye, 1, 1, 11);
+    assert_vector(view.up, 1, 0, 0);
+    assert_vector(view.right, 0, -1, 0);
     memcpy(camera.up, (const double[3]){0, -1, 0}, sizeof camera.up);
     view = mtm_camera_view(&camera, &grid);
     assert_vector(view.eye, 1, 1, 1 - 10);

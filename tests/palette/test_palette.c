@@ -108,13 +108,13 @@ static void overriding_goes_by_name_and_keeps_the_order(void **state) {
     mtm_error error;
     mtm_palette palette;
     assert_ok(mtm_palette_defaults(&palette, &error), error);
-    mtm_palette other = parse("{\"materials\": [{\"name\": \"dense\", \"srgb\": \"#102030\"},"
-                              " {\"name\": \"stranger\", \"srgb\": \"#ffffff\"}],"
+    mtm_palette other = parse("{\"materials\": [{\"name\": \"stranger\", \"srgb\": \"#ffffff\"},"
+                              " {\"name\": \"dense\", \"srgb\": \"#102030\"}],"
                               " \"lights\": [{\"name\": \"new\", \"illuminant\": \"C\"},"
                               " {\"name\": \"lamp\", \"illuminant\": \"E\"}]}");
     assert_ok(mtm_palette_override(&palette, &other, &error), error);
     assert_int_equal(palette.material_count, 3);
-    assert_memory_equal(&palette.materials[2], &other.materials[0], sizeof(mtm_material));
+    assert_memory_equal(&palette.materials[2], &other.materials[1], sizeof(mtm_material));
     assert_int_equal(palette.light_count, 4);
     assert_memory_equal(&palette.lights[1], &other.lights[1], sizeof(mtm_light));
     assert_string_equal(palette.lights[3].name, "new");

@@ -245,14 +245,15 @@ static void clipping_does_not_move_samples(void **state) {
     mtm_volume_destroy(volume);
 }
 
-/* The same material at both ends of a jump makes every block count as visible without changing any value. */
+/* An emission of 1e-30 makes every block count as visible without changing any value; the ball begins with a jump, so
+ * that a sample skipped at its edge shows. */
 static void skipping_empty_space_changes_nothing(void **state) {
     (void)state;
     const mtm_grid grid = mtm_grid_defaults(33, 29, 41);
     const mtm_transfer_point never_empty[] = {
-        {0, 0, 1e-30, true, 1}, {0.3, 0, 1e-30, true, 1}, {1, 0.9, 2.302585092994046, true, 2}};
+        {0, 0, 1e-30, true, 1}, {0.3, 0, 1e-30, true, 1}, {0.3, 0.9, 1, true, 2}};
     const mtm_transfer_point with_empty[] = {
-        {0, 0, 0, true, 1}, {0.3, 0, 0, true, 1}, {1, 0.9, 2.302585092994046, true, 2}};
+        {0, 0, 0, true, 1}, {0.3, 0, 0, true, 1}, {0.3, 0.9, 1, true, 2}};
     mtm_volume *volume = fixture_volume(&grid, ball);
     mtm_basis *basis = fixture_basis("materials", NULL);
     for (int i = 0; i < 12; i++) {
@@ -270,6 +271,46 @@ static void skipping_empty_space_changes_nothing(void **state) {
         mtm_image_destroy(skipped);
         mtm_image_destroy(walked);
     }
+    mtm_basis_destroy(basis);
+    mtm_volume_destroy(volume);
+}
+
+static double ramp_xz(const double world[3]) {
+    return (world[0] + world[2]) / 40;
+}
+
+static void gradients_are_those_of_a_linear_field_up_to_the_faces(void **state) {
+    (void)state;
+    const mtm_grid grid = mtm_grid_defaults(9, 9, 9);
+    const mtm_transfer_point constant[] = {{0, 0.2, 0, false, 0}};
+    mtm_volume *volume = fixture_volume(&grid, ramp_xz);
+    mtm_basis *basis = fixture_basis("materials", NULL);
+    const mtm_camera camera = fixture_front_camera(8); /* the outermost rays run just inside the faces */
+    mtm_render_options options = fixture_plain_options();
+    options.shading.ambient = 0.3;
+    options.shading.diffuse = 0.7;
+    mtm_image *image = fixture_render(volume, 1, constant, 1, basis, &camera, &options);
+    for (int y = 0; y < 9; y++)
+        for (int x = 0; x < 9; x++)
+            assert_near(fixture_pixel(image, x, y)[0] / fixture_pixel(image, x, y)[4], 0.3 + 0.7 * sqrt(0.5),
+                        1e-5);
+    mtm_image_destroy(image);
+    mtm_basis_destroy(basis);
+    mtm_volume_destroy(volume);
+}
+
+static void an_eye_inside_sees_only_what_is_before_it(void **state) {
+    (void)state;
+    const mtm_grid grid = mtm_grid_defaults(21, 21, 21);
+    mtm_volume *volume = fixture_volume(&grid, half);
+    mtm_basis *basis = fixture_basis("materials", NULL);
+    mtm_camera camera = fixture_front_camera(3);
+    camera.distance = 4;
+    camera.fov = 30;
+    const mtm_render_options options = fixture_plain_options();
+    mtm_image *image = fixture_render(volume, 2, soft, 2.5, basis, &camera, &options);
+    assert_near(fixture_pixel(image, 4, 4)[4], 1 - pow(0.9, 14 / 2.5), 1e-5);
+    mtm_image_destroy(image);
     mtm_basis_destroy(basis);
     mtm_volume_destroy(volume);
 }
@@ -455,6 +496,8 @@ int main(void) {
         cmocka_unit_test(a_turned_camera_on_a_turned_volume_sees_the_same),
         cmocka_unit_test(clipping_does_not_move_samples),
         cmocka_unit_test(skipping_empty_space_changes_nothing),
+        cmocka_unit_test(gradients_are_those_of_a_linear_field_up_to_the_faces),
+        cmocka_unit_test(an_eye_inside_sees_only_what_is_before_it),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(a_ray_ends_where_little_is_left_to_see),
         cmocka_unit_test(voxels_that_are_no_numbers_count_as_the_smallest_value),

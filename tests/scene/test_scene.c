@@ -95,6 +95,8 @@ static void a_written_scene_reads_back_as_the_same_text(void **state) {
     assert_memory_equal(&again->camera, &scene->camera, sizeof scene->camera);
     assert_memory_equal(again->palette.lights, scene->palette.lights, 3 * sizeof(mtm_light));
     assert_near(again->lights.weights[1], 0.25, 0);
+    assert_memory_equal(again->points, scene->points, 2 * sizeof *scene->points);
+    assert_memory_equal(&again->render, &scene->render, sizeof scene->render);
     assert_string_equal(again->volume_file, "b.nrrd"); /* a document that travels names no folder */
     mtm_text_free(first);
     mtm_text_free(second);
