@@ -13,13 +13,14 @@ static const command_option options[] = {
     {"--threads", "N", "default: all processors; the picture is the same for any"},
     {"--volume", "FILE", "the volume to use instead of the scene's"},
     {"--half", NULL, "16-bit coefficients in the EXR, half the size"},
+    {"--spectral", NULL, "add T.380,000000nm … channels to the EXR, for programs that read spectral images"},
     {NULL, NULL, NULL},
 };
 
 typedef struct render_request {
     const char *input, *output, *volume, *renderer, *basis;
     int width, height, threads;
-    bool is_half;
+    bool is_half, is_spectral;
 } render_request;
 
 static void read_option(argument_walk *walk, const command_option *option, const char *value,
@@ -40,8 +41,10 @@ static void read_option(argument_walk *walk, const command_option *option, const
         (void)parse_count(walk, option, value, &request->threads);
     else if (is_option(option, "--volume"))
         request->volume = value;
-    else
+    else if (is_option(option, "--half"))
         request->is_half = true;
+    else
+        request->is_spectral = true;
 }
 
 static void apply_request(const render_request *request, mtm_scene *scene) {
@@ -55,19 +58,29 @@ static void apply_request(const render_request *request, mtm_scene *scene) {
     scene->render.thread_count = request->threads;
 }
 
+static mtm_status write_image(const render_request *request, const mtm_scene *scene, const mtm_image *image,
+                              const mtm_picture *preview, mtm_error *error) {
+    float rows[MTM_SPECTRUM_SAMPLES * MTM_DIMENSION_MAX];
+    mtm_image_write_options write = mtm_image_write_defaults();
+    write.is_half = request->is_half;
+    write.preview = preview;
+    if (request->is_spectral) {
+        const mtm_status status = mtm_scene_reconstruction(scene, image, rows, error);
+        if (status != MTM_OK) return status;
+        write.reconstruction = rows;
+    }
+    return mtm_image_write(image, request->output, &write, error);
+}
+
 /* The preview in an EXR and the picture in a PNG are the same: the image under the scene's light. */
 static mtm_status write_result(const render_request *request, const mtm_scene *scene, const mtm_image *image,
                                mtm_error *error) {
     mtm_picture *picture = NULL;
     mtm_status status = mtm_scene_relight(scene, image, request->threads, &picture, error);
-    if (status == MTM_OK && has_extension(request->output, ".exr")) {
-        mtm_image_write_options write = mtm_image_write_defaults();
-        write.is_half = request->is_half;
-        write.preview = picture;
-        status = mtm_image_write(image, request->output, &write, error);
-    } else if (status == MTM_OK) {
-        status = write_picture(picture, scene, request->output, error);
-    }
+    if (status == MTM_OK)
+        status = has_extension(request->output, ".exr")
+                     ? write_image(request, scene, image, picture, error)
+                     : write_picture(picture, scene, request->output, error);
     mtm_picture_destroy(picture);
     return status;
 }

@@ -60,6 +60,10 @@ MTM_API void mtm_basis_encode_white(const mtm_basis *basis, float *coefficients)
 MTM_API MTM_CHECK mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illumination,
                                               double *matrix, mtm_error *error);
 
+/* The spectrum of every coefficient: 81 rows (the grid) of d, so that rows · coefficients is the reflectance a pixel
+ * stands for. MTM_ARGUMENT from "rgb", which holds no spectra. */
+MTM_API MTM_CHECK mtm_status mtm_basis_reconstruction(const mtm_basis *basis, float *rows, mtm_error *error);
+
 #ifdef __cplusplus
 }
 #endif

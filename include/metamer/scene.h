@@ -115,6 +115,10 @@ MTM_API MTM_CHECK mtm_status mtm_scene_render(const mtm_scene *scene, const mtm_
                                               const mtm_progress *progress, mtm_image **image,
                                               mtm_error *error);
 
+/* The 81 × dimension rows of mtm_basis_reconstruction for an image of the scene. */
+MTM_API MTM_CHECK mtm_status mtm_scene_reconstruction(const mtm_scene *scene, const mtm_image *image,
+                                                      float *rows, mtm_error *error);
+
 /* The scene an image carries, or the default scene's lights for an image of another program. */
 MTM_API MTM_CHECK mtm_status mtm_scene_of_image(const mtm_image *image, const char *path, mtm_scene **scene,
                                                 mtm_error *error);

@@ -97,6 +97,18 @@ mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illu
     return basis->kind->matrix(basis, illumination, matrix, error);
 }
 
+mtm_status mtm_basis_reconstruction(const mtm_basis *basis, float *rows, mtm_error *error) {
+    if (basis->kind->column == NULL)
+        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" holds no spectra to reconstruct",
+                        basis->kind->name);
+    for (int column = 0; column < basis->dimension; column++) {
+        const mtm_spectrum spectrum = basis->kind->column(basis, column);
+        for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
+            rows[i * basis->dimension + column] = (float)spectrum.value[i];
+    }
+    return MTM_OK;
+}
+
 int mtm_lanes(int dimension) {
     const int floats = dimension + 1;
     if (floats <= 4) return 4;
@@ -105,8 +117,16 @@ int mtm_lanes(int dimension) {
     return (floats + 3) / 4 * 4;
 }
 
-void mtm_basis_set_column(double *matrix, int dimension, int column, mtm_rgb color) {
-    matrix[column] = color.r;
-    matrix[dimension + column] = color.g;
-    matrix[2 * dimension + column] = color.b;
+mtm_status mtm_basis_light_columns(const mtm_basis *basis, const mtm_illumination *illumination,
+                                   double *matrix, mtm_error *error) {
+    (void)error;
+    const int d = basis->dimension;
+    for (int i = 0; i < d; i++) {
+        const mtm_spectrum spectrum = basis->kind->column(basis, i);
+        const mtm_rgb color = mtm_illuminate(illumination, &spectrum);
+        matrix[i] = color.r;
+        matrix[d + i] = color.g;
+        matrix[2 * d + i] = color.b;
+    }
+    return MTM_OK;
 }

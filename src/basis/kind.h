@@ -14,6 +14,8 @@ typedef struct mtm_basis_kind {
     /* 3 rows of d. */
     mtm_status (*matrix)(const mtm_basis *basis, const mtm_illumination *illumination, double *matrix,
                          mtm_error *error);
+    /* The spectrum that coefficient `column` stands for; NULL for a kind without spectra. */
+    mtm_spectrum (*column)(const mtm_basis *basis, int column);
     bool needs_illumination;
 } mtm_basis_kind;
 
@@ -29,7 +31,8 @@ extern const mtm_basis_kind mtm_basis_materials;
 extern const mtm_basis_kind mtm_basis_wavelengths;
 extern const mtm_basis_kind mtm_basis_rgb;
 
-/* Column `column` of a 3×d matrix becomes the color. */
-void mtm_basis_set_column(double *matrix, int dimension, int column, mtm_rgb color);
+/* M(E) = X · CMFᵀ · diag(E) · B, the matrix of every kind whose coefficients stand for spectra. */
+mtm_status mtm_basis_light_columns(const mtm_basis *basis, const mtm_illumination *illumination,
+                                   double *matrix, mtm_error *error);
 
 #endif

@@ -15,14 +15,12 @@ static void encode(const mtm_basis *basis, int material, float *coefficients) {
     coefficients[material] = 1;
 }
 
-static mtm_status matrix(const mtm_basis *basis, const mtm_illumination *illumination, double *matrix,
-                         mtm_error *error) {
-    (void)error;
-    for (int i = 0; i < basis->dimension; i++)
-        mtm_basis_set_column(matrix, basis->dimension, i,
-                             mtm_illuminate(illumination, &basis->reflectances[i]));
-    return MTM_OK;
+static mtm_spectrum column(const mtm_basis *basis, int column) {
+    return basis->reflectances[column];
 }
 
-const mtm_basis_kind mtm_basis_materials = {
-    .name = "materials", .dimension = dimension, .encode = encode, .matrix = matrix};
+const mtm_basis_kind mtm_basis_materials = {.name = "materials",
+                                            .dimension = dimension,
+                                            .encode = encode,
+                                            .column = column,
+                                            .matrix = mtm_basis_light_columns};

@@ -12,16 +12,15 @@ static void encode(const mtm_basis *basis, int material, float *coefficients) {
     for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++) coefficients[i] = (float)reflectance->value[i];
 }
 
-static mtm_status matrix(const mtm_basis *basis, const mtm_illumination *illumination, double *matrix,
-                         mtm_error *error) {
-    (void)error;
-    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++) {
-        mtm_spectrum line = mtm_spectrum_constant(0);
-        line.value[i] = 1;
-        mtm_basis_set_column(matrix, basis->dimension, i, mtm_illuminate(illumination, &line));
-    }
-    return MTM_OK;
+static mtm_spectrum column(const mtm_basis *basis, int column) {
+    (void)basis;
+    mtm_spectrum line = mtm_spectrum_constant(0);
+    line.value[column] = 1;
+    return line;
 }
 
-const mtm_basis_kind mtm_basis_wavelengths = {
-    .name = "wavelengths", .dimension = dimension, .encode = encode, .matrix = matrix};
+const mtm_basis_kind mtm_basis_wavelengths = {.name = "wavelengths",
+                                              .dimension = dimension,
+                                              .encode = encode,
+                                              .column = column,
+                                              .matrix = mtm_basis_light_columns};

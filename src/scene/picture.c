@@ -79,6 +79,15 @@ mtm_status mtm_scene_render(const mtm_scene *scene, const mtm_volume *volume, co
     return status;
 }
 
+mtm_status mtm_scene_reconstruction(const mtm_scene *scene, const mtm_image *image, float *rows,
+                                    mtm_error *error) {
+    mtm_basis *basis = NULL;
+    mtm_status status = make_basis(scene, image->basis, &basis, error);
+    if (status == MTM_OK) status = mtm_basis_reconstruction(basis, rows, error);
+    mtm_basis_destroy(basis);
+    return status;
+}
+
 /* What an image of another program is looked at with: the default lights. */
 static mtm_status make_plain_scene(const char *path, mtm_scene **scene, mtm_error *error) {
     mtm_scene *made = NULL;

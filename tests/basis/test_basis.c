@@ -48,6 +48,31 @@ static void every_material_and_white_keep_their_color_under_every_light(void **s
     }
 }
 
+static void reconstruction_times_coefficients_is_the_reflectance(void **state) {
+    (void)state;
+    mtm_error error;
+    mtm_spectrum reflectances[FIXTURE_MATERIALS];
+    float rows[MTM_SPECTRUM_SAMPLES * MTM_DIMENSION_MAX];
+    fixture_reflectances(reflectances);
+    for (int kind = 0; kind < 2; kind++) {
+        mtm_basis *basis = fixture_basis(relightable[kind], NULL);
+        const int d = mtm_basis_dimension(basis);
+        float coefficients[MTM_DIMENSION_MAX];
+        mtm_basis_encode_material(basis, 1, coefficients);
+        assert_ok(mtm_basis_reconstruction(basis, rows, &error), error);
+        for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++) {
+            double sum = 0;
+            for (int k = 0; k < d; k++) sum += rows[i * d + k] * coefficients[k];
+            assert_near(sum, reflectances[1].value[i], 1e-6);
+        }
+        mtm_basis_destroy(basis);
+    }
+    const mtm_illumination light = fixture_illumination("A");
+    mtm_basis *rgb = fixture_basis("rgb", &light);
+    assert_fails(mtm_basis_reconstruction(rgb, rows, &error), MTM_ARGUMENT, error, "no spectra");
+    mtm_basis_destroy(rgb);
+}
+
 static void rgb_is_the_color_under_its_own_light_and_refuses_others(void **state) {
     (void)state;
     mtm_error error;
@@ -124,6 +149,7 @@ static void adaptation_makes_white_white_under_every_light(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_material_and_white_keep_their_color_under_every_light),
+        cmocka_unit_test(reconstruction_times_coefficients_is_the_reflectance),
         cmocka_unit_test(rgb_is_the_color_under_its_own_light_and_refuses_others),
         cmocka_unit_test(names_are_checked),
         cmocka_unit_test(the_largest_palette_fits_the_lanes),
