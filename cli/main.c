@@ -27,6 +27,14 @@ static void print_overview(FILE *stream) {
                   "engine.png\n");
 }
 
+/* What could not be printed has failed: a full disk or a closed pipe behind standard output. */
+static int finish_output(const char *command, int status) {
+    if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+    (void)fprintf(stderr, "metamer%s%s: standard output cannot be written\n", *command == '\0' ? "" : " ",
+                  command);
+    return EXIT_FAILED;
+}
+
 static void print_version(void) {
     (void)printf("metamer %s\nLicence: BSD-3-Clause. Links zlib, libpng, jansson, OpenEXR and OpenSSL's "
                  "libcrypto, all "
@@ -41,19 +49,15 @@ int main(int argc, char **argv) {
     }
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
         print_overview(stdout);
-        return EXIT_DONE;
+        return finish_output("", EXIT_DONE);
     }
     if (strcmp(argv[1], "--version") == 0) {
         print_version();
-        return EXIT_DONE;
+        return finish_output("", EXIT_DONE);
     }
-    for (size_t i = 0; i < COMMAND_COUNT; i++) {
-        if (strcmp(argv[1], commands[i]->name) != 0) continue;
-        const int status = commands[i]->run(commands[i], argc - 2, argv + 2);
-        if (fflush(stdout) == 0 && !ferror(stdout)) return status;
-        (void)fprintf(stderr, "metamer %s: standard output cannot be written\n", commands[i]->name);
-        return EXIT_FAILED;
-    }
+    for (size_t i = 0; i < COMMAND_COUNT; i++)
+        if (strcmp(argv[1], commands[i]->name) == 0)
+            return finish_output(commands[i]->name, commands[i]->run(commands[i], argc - 2, argv + 2));
     (void)fprintf(stderr, "metamer: unknown command \"%s\"; see metamer --help\n", argv[1]);
     return EXIT_USAGE;
 }
