@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 int fail_command(const subcommand *command, const mtm_error *error) {
@@ -110,8 +111,11 @@ mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **sce
 }
 
 mtm_status check_output(const char *path, mtm_error *error) {
+    struct stat state;
+    const bool is_device = stat(path, &state) == 0 && !S_ISREG(state.st_mode) && !S_ISDIR(state.st_mode);
     char *folder = folder_of(path);
-    const bool is_writable = folder != NULL && access(folder, W_OK | X_OK) == 0;
+    const bool is_writable =
+        is_device ? access(path, W_OK) == 0 : folder != NULL && access(folder, W_OK | X_OK) == 0;
     if (!is_writable)
         (void)snprintf(error->message, sizeof error->message, "%s: cannot be written: %s", path,
                        strerror(errno));

@@ -28,7 +28,8 @@ bool has_extension(const char *path, const char *extension);
 mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **scene, mtm_volume **volume,
                       mtm_error *error);
 
-/* MTM_IO where the folder of an output file does not exist or cannot be written: worth knowing before long work. */
+/* MTM_IO where an output file cannot be written: worth knowing before long work. A file is replaced by a new one, so
+ * its folder must allow that; a device or a pipe is written itself. */
 mtm_status check_output(const char *path, mtm_error *error);
 
 /* Writes the picture with the scene it shows embedded. */
