@@ -56,6 +56,10 @@ MTM_API char *mtm_palette_format(const mtm_palette *palette);
 MTM_API int mtm_palette_find_material(const mtm_palette *palette, const char *name);
 MTM_API int mtm_palette_find_light(const mtm_palette *palette, const char *name);
 
+/* The name that is most like one that was not found, for messages; "" where the palette has none. */
+MTM_API const char *mtm_palette_nearest_material(const mtm_palette *palette, const char *name);
+MTM_API const char *mtm_palette_nearest_light(const mtm_palette *palette, const char *name);
+
 /* The scene's light: intensity · Σ weights[i]·Eᵢ over the palette's lights, each scaled to Y = 1 on the perfect
  * reflector (CIE 1931) first; weights are not renormalised. */
 MTM_API mtm_spectrum mtm_palette_mix(const mtm_palette *palette, const double *weights, double intensity);

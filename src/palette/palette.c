@@ -9,6 +9,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/nearest.h"
 
 void mtm_palette_free(mtm_palette *palette) {
     free(palette->materials);
@@ -72,6 +73,21 @@ int mtm_palette_find_light(const mtm_palette *palette, const char *name) {
     for (int i = 0; i < palette->light_count; i++)
         if (strcmp(palette->lights[i].name, name) == 0) return i;
     return -1;
+}
+
+const char *mtm_palette_nearest_material(const mtm_palette *palette, const char *name) {
+    const char *names[MTM_MATERIALS_MAX];
+    const int count =
+        palette->material_count < MTM_MATERIALS_MAX ? palette->material_count : MTM_MATERIALS_MAX;
+    for (int i = 0; i < count; i++) names[i] = palette->materials[i].name;
+    return count > 0 ? mtm_nearest_name(name, names, (size_t)count) : "";
+}
+
+const char *mtm_palette_nearest_light(const mtm_palette *palette, const char *name) {
+    const char *names[MTM_LIGHTS_MAX];
+    const int count = palette->light_count < MTM_LIGHTS_MAX ? palette->light_count : MTM_LIGHTS_MAX;
+    for (int i = 0; i < count; i++) names[i] = palette->lights[i].name;
+    return count > 0 ? mtm_nearest_name(name, names, (size_t)count) : "";
 }
 
 mtm_spectrum mtm_palette_mix(const mtm_palette *palette, const double *weights, double intensity) {

@@ -101,7 +101,9 @@ static int read_material(scene_reader *reader, const json_t *object, const char 
     if (!mtm_json_text(reader->json, object, key, &name)) return -1;
     const int material = mtm_palette_find_material(&reader->scene->palette, name);
     if (material < 0)
-        mtm_json_fail(reader->json, key, "is \"%.64s\", which is no material of the palette", name);
+        mtm_json_fail(reader->json, key,
+                      "is \"%.64s\", which is no material of the palette; the nearest is \"%s\"", name,
+                      mtm_palette_nearest_material(&reader->scene->palette, name));
     return material;
 }
 
@@ -332,7 +334,9 @@ static void read_display(scene_reader *reader, const json_t *document) {
 /* Index of the light a key of `weights` or `bulbs` names, or -1 after a failure. */
 static int find_light(scene_reader *reader, const char *name) {
     const int light = mtm_palette_find_light(&reader->scene->palette, name);
-    if (light < 0) mtm_json_fail(reader->json, name, "is no light of the palette");
+    if (light < 0)
+        mtm_json_fail(reader->json, name, "is no light of the palette; the nearest is \"%s\"",
+                      mtm_palette_nearest_light(&reader->scene->palette, name));
     return light;
 }
 

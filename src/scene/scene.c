@@ -79,14 +79,10 @@ void mtm_scene_clear_weights(mtm_scene *scene) {
 }
 
 static mtm_status fail_unknown_light(const mtm_scene *scene, const char *name, mtm_error *error) {
-    const char *names[MTM_LIGHTS_MAX];
-    int count = 0;
-    for (; count < scene->palette.light_count && count < MTM_LIGHTS_MAX; count++)
-        names[count] = scene->palette.lights[count].name;
-    if (count == 0)
+    if (scene->palette.light_count == 0)
         return mtm_fail(error, MTM_ARGUMENT, "light \"%s\" is not known; the palette has no lights", name);
     return mtm_fail(error, MTM_ARGUMENT, "light \"%s\" is not in the palette; the nearest is \"%s\"", name,
-                    mtm_nearest_name(name, names, (size_t)count));
+                    mtm_palette_nearest_light(&scene->palette, name));
 }
 
 mtm_status mtm_scene_set_weight(mtm_scene *scene, const char *light, double weight, mtm_error *error) {
