@@ -2,6 +2,7 @@
  * Strict reading of JSON documents with errors that name document, key and value. */
 #include "base/json.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -177,6 +178,25 @@ bool mtm_json_numbers(mtm_json_reader *reader, const json_t *object, const char 
             fail_range(reader, NULL, element, range);
         else
             result[i] = json_number_value(element);
+        mtm_json_leave(reader, array);
+    }
+    mtm_json_leave(reader, place);
+    return reader->status == MTM_OK;
+}
+
+bool mtm_json_integers(mtm_json_reader *reader, const json_t *object, const char *key, size_t count, int min,
+                       int max, int *result) {
+    enum { COUNT_MAX = 8 };
+    double numbers[COUNT_MAX];
+    assert(count <= COUNT_MAX);
+    if (!mtm_json_numbers(reader, object, key, count, (mtm_json_range){min, max}, numbers)) return false;
+    const size_t place = mtm_json_enter(reader, key);
+    for (size_t i = 0; i < count; i++) {
+        const size_t array = mtm_json_enter_index(reader, i);
+        if (numbers[i] != floor(numbers[i]))
+            fail_type(reader, NULL, json_array_get(json_object_get(object, key), i), "a whole number");
+        else
+            result[i] = (int)numbers[i];
         mtm_json_leave(reader, array);
     }
     mtm_json_leave(reader, place);

@@ -58,6 +58,9 @@ bool mtm_json_number(mtm_json_reader *reader, const json_t *object, const char *
                      double *result);
 bool mtm_json_numbers(mtm_json_reader *reader, const json_t *object, const char *key, size_t count,
                       mtm_json_range range, double *result);
+/* The same for whole numbers. */
+bool mtm_json_integers(mtm_json_reader *reader, const json_t *object, const char *key, size_t count, int min,
+                       int max, int *result);
 bool mtm_json_boolean(mtm_json_reader *reader, const json_t *object, const char *key, bool *result);
 bool mtm_json_text(mtm_json_reader *reader, const json_t *object, const char *key, const char **result);
 bool mtm_json_choice(mtm_json_reader *reader, const json_t *object, const char *key, const char *const *names,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * Reading scene documents, version 1: one function per object of the document. docs/scene.md is the specification. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,12 +36,6 @@ static void copy_text(mtm_json_reader *json, const char *text, char **copy) {
     if (*copy == NULL) json->status = mtm_fail_memory(json->error, "the scene", strlen(text));
 }
 
-static void read_volume_size(scene_reader *reader, const json_t *object) {
-    double size[3];
-    if (!mtm_json_numbers(reader->json, object, "size", 3, (mtm_json_range){1, 2147483647}, size)) return;
-    for (int axis = 0; axis < 3; axis++) reader->scene->volume_size[axis] = (int)size[axis];
-}
-
 static void read_volume(scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"file", "size", "sha256"};
     mtm_json_reader *json = reader->json;
@@ -52,7 +47,8 @@ static void read_volume(scene_reader *reader, const json_t *document) {
     if (object != NULL && mtm_json_required(json, object, "file") != NULL &&
         mtm_json_text(json, object, "file", &file))
         copy_text(json, file, &reader->scene->volume_file);
-    if (object != NULL) read_volume_size(reader, object);
+    if (object != NULL)
+        (void)mtm_json_integers(json, object, "size", 3, 1, INT_MAX, reader->scene->volume_size);
     if (object != NULL && mtm_json_text(json, object, "sha256", &hash)) {
         if (strlen(hash) != 64 || strspn(hash, "0123456789abcdef") != 64)
             mtm_json_fail(json, "sha256", "is \"%.70s\", must be 64 lower-case hexadecimal digits", hash);
@@ -297,15 +293,15 @@ static void read_render(scene_reader *reader, const json_t *document) {
     static const char *const blends[] = {"composite", "sum", "maximum"};
     mtm_json_reader *json = reader->json;
     mtm_render_options *render = &reader->scene->render;
-    double size[2];
+    int size[2];
     int blend = 0;
     size_t place = 0;
     const json_t *object = enter_object(json, document, "render", KEYS(keys), &place);
     if (object != NULL) {
         read_names(json, object, reader->scene);
-        if (mtm_json_numbers(json, object, "size", 2, (mtm_json_range){1, MTM_IMAGE_EDGE_MAX}, size)) {
-            render->width = (int)size[0];
-            render->height = (int)size[1];
+        if (mtm_json_integers(json, object, "size", 2, 1, MTM_IMAGE_EDGE_MAX, size)) {
+            render->width = size[0];
+            render->height = size[1];
         }
         (void)mtm_json_number(json, object, "step", (mtm_json_range){1e-6, 1e6}, &render->step);
         if (mtm_json_choice(json, object, "blend", KEYS(blends), &blend)) render->blend = (mtm_blend)blend;
