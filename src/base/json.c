@@ -26,14 +26,17 @@ mtm_status mtm_json_parse(const char *document, const char *text, size_t byte_co
     return mtm_fail(error, MTM_FORMAT, "%s:%d: is no JSON document: %s", document, reason.line, reason.text);
 }
 
-mtm_status mtm_json_read(const char *path, json_t **value, mtm_error *error) {
-    char *text = NULL;
+mtm_status mtm_json_read_text(const char *path, char **text, mtm_error *error) {
+    char *read = NULL;
     size_t byte_count = 0;
-    mtm_status status = mtm_file_read(path, MTM_JSON_TEXT_MAX, &text, &byte_count, error);
+    const mtm_status status = mtm_file_read(path, MTM_JSON_TEXT_MAX, &read, &byte_count, error);
     if (status != MTM_OK) return status;
-    status = mtm_json_parse(path, text, byte_count, value, error);
-    free(text);
-    return status;
+    if (strlen(read) != byte_count) {
+        free(read);
+        return mtm_fail(error, MTM_FORMAT, "%s: is no JSON document: holds a zero byte", path);
+    }
+    *text = read;
+    return MTM_OK;
 }
 
 mtm_json_reader mtm_json_begin(const char *document, mtm_error *error) {

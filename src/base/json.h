@@ -29,11 +29,12 @@ extern const mtm_json_range mtm_json_any;          /* every finite number */
 extern const mtm_json_range mtm_json_not_negative; /* 0 and above */
 extern const mtm_json_range mtm_json_unit;         /* 0 … 1 */
 
+/* The text of a document; a file that holds a NUL is none (MTM_FORMAT). Release with free(). */
+MTM_CHECK mtm_status mtm_json_read_text(const char *path, char **text, mtm_error *error);
+
 /* Parses text; a key that stands twice is an error. Release with json_decref. MTM_FORMAT names document and line. */
 MTM_CHECK mtm_status mtm_json_parse(const char *document, const char *text, size_t byte_count, json_t **value,
                                     mtm_error *error);
-/* The same for a file. */
-MTM_CHECK mtm_status mtm_json_read(const char *path, json_t **value, mtm_error *error);
 
 mtm_json_reader mtm_json_begin(const char *document, mtm_error *error);
 

@@ -239,8 +239,7 @@ mtm_status mtm_palette_parse(const char *document, const char *text, const char 
 
 mtm_status mtm_palette_read(const char *path, mtm_palette *palette, mtm_error *error) {
     char *text = NULL;
-    size_t byte_count = 0;
-    mtm_status status = mtm_file_read(path, MTM_JSON_TEXT_MAX, &text, &byte_count, error);
+    mtm_status status = mtm_json_read_text(path, &text, error);
     if (status != MTM_OK) return status;
     char *folder = mtm_path_folder(path);
     if (folder == NULL)

@@ -499,8 +499,7 @@ mtm_status mtm_scene_parse(const char *document, const char *text, const char *f
 
 mtm_status mtm_scene_read(const char *path, mtm_scene **scene, mtm_error *error) {
     char *text = NULL;
-    size_t byte_count = 0;
-    mtm_status status = mtm_file_read(path, MTM_JSON_TEXT_MAX, &text, &byte_count, error);
+    mtm_status status = mtm_json_read_text(path, &text, error);
     if (status != MTM_OK) return status;
     char *folder = mtm_path_folder(path);
     status = folder == NULL ? mtm_fail_memory(error, path, strlen(path))
