@@ -98,7 +98,8 @@ MTM_API MTM_CHECK mtm_status mtm_scene_set_weight(mtm_scene *scene, const char *
                                                   mtm_error *error);
 MTM_API MTM_CHECK mtm_status mtm_scene_use_stop(mtm_scene *scene, const char *stop, mtm_error *error);
 
-/* Makes one light of that name and spectrum the only one that shines; added to the palette where it is new. */
+/* Makes one light of that name and spectrum the only one that shines; added to the palette where it is new. Of a long
+ * name only the first MTM_NAME_MAX bytes are kept. */
 MTM_API MTM_CHECK mtm_status mtm_scene_use_light(mtm_scene *scene, const char *name,
                                                  const mtm_spectrum *emission, mtm_error *error);
 

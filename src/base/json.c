@@ -80,6 +80,13 @@ void mtm_json_leave(mtm_json_reader *reader, size_t previous) {
     reader->path[previous] = '\0';
 }
 
+bool mtm_json_can_hold(const char *text, size_t byte_count) {
+    json_t *held = json_stringn(text, byte_count);
+    const bool can_hold = held != NULL;
+    json_decref(held);
+    return can_hold;
+}
+
 const char *mtm_json_preview(const json_t *value, char buffer[64]) {
     char *text = json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(10));
     (void)snprintf(buffer, 64, "%.57s%s", text == NULL ? "?" : text,

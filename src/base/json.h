@@ -67,6 +67,9 @@ bool mtm_json_text(mtm_json_reader *reader, const json_t *object, const char *ke
 bool mtm_json_choice(mtm_json_reader *reader, const json_t *object, const char *key, const char *const *names,
                      size_t count, int *result);
 
+/* Whether a document can hold the first `byte_count` bytes of the text: they are UTF-8. */
+bool mtm_json_can_hold(const char *text, size_t byte_count);
+
 /* A value for a message, at most about 60 characters: `"cubic"`, `[1,2]`. */
 const char *mtm_json_preview(const json_t *value, char buffer[64]);
 

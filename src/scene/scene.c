@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/json.h"
 #include "base/memory.h"
-#include "base/nearest.h"
 
 mtm_status mtm_light_mix_create(int light_count, mtm_light_mix *mix, mtm_error *error) {
     *mix = (mtm_light_mix){.intensity = 1};
@@ -153,10 +153,18 @@ mtm_status mtm_scene_override_palette(mtm_scene *scene, const mtm_palette *palet
     return MTM_OK;
 }
 
+/* As much of the name as a palette and its document can hold. */
+static void set_light_name(const char *name, mtm_light *light) {
+    size_t length = strlen(name) < MTM_NAME_MAX ? strlen(name) : MTM_NAME_MAX;
+    while (length > 0 && !mtm_json_can_hold(name, length)) length--;
+    (void)snprintf(light->name, sizeof light->name, "%.*s", length > 0 ? (int)length : 10,
+                   length > 0 ? name : "illuminant");
+}
+
 mtm_status mtm_scene_use_light(mtm_scene *scene, const char *name, const mtm_spectrum *emission,
                                mtm_error *error) {
     mtm_light light = {.emission = *emission};
-    (void)snprintf(light.name, sizeof light.name, "%s", name);
+    set_light_name(name, &light);
     const mtm_palette palette = {.light_count = 1, .lights = &light};
     const mtm_status status = mtm_scene_override_palette(scene, &palette, error);
     if (status != MTM_OK) return status;

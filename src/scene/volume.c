@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/memory.h"
 #include "scene/scene.h"
 
@@ -62,6 +63,9 @@ static mtm_status check_identity(const mtm_scene *scene, const char *path, const
 
 mtm_status mtm_scene_state_volume(mtm_scene *scene, const mtm_volume *volume, const char *path,
                                   const char *sha256, mtm_error *error) {
+    if (!mtm_json_can_hold(mtm_path_name(path), strlen(mtm_path_name(path))))
+        return mtm_fail(error, MTM_ARGUMENT,
+                        "%s: its name is not UTF-8, which a scene cannot hold; rename it", path);
     char *name = mtm_text_copy(mtm_path_name(path));
     if (name == NULL) return mtm_fail_memory(error, "the scene", strlen(path));
     free(scene->volume_file);

@@ -141,8 +141,9 @@ class CliTest(unittest.TestCase):
         environment = {k: v for k, v in os.environ.items() if k != "METAMER_DATA"}
         environment.update(env or {})
         options.setdefault("stdout", subprocess.PIPE)
-        return subprocess.run([METAMER, *map(str, arguments)], cwd=self.folder, env=environment, timeout=120,
-                              stderr=subprocess.PIPE, text=True, **options)
+        words = [word if isinstance(word, bytes) else str(word) for word in arguments]
+        return subprocess.run([METAMER, *words], cwd=self.folder, env=environment, timeout=120,
+                              stderr=subprocess.PIPE, text=True, errors="replace", **options)
 
     def succeed(self, *arguments, **options):
         """Standard output of a run that must not complain."""

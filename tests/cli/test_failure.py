@@ -56,6 +56,11 @@ class BadInput(support.CliTest):
             self.refuse("convert", name, "-o", "a.nrrd", texts=[name])
             self.refuse("render", "scene.json", "-o", "a.png", "--volume", name, texts=[name])
 
+    def test_a_volume_whose_name_a_document_cannot_hold(self):
+        os.rename(self.path("blob.nrrd"), os.fsencode(self.path("bl")) + b"\xf6b.nrrd")
+        self.refuse("render", b"bl\xf6b.nrrd", "-o", "a.png", texts=["UTF-8"])
+        self.refuse("render", "scene.json", "-o", "a.png", "--volume", b"bl\xf6b.nrrd", texts=["UTF-8"])
+
     def test_files_of_another_kind(self):
         self.succeed("render", "scene.json", "-o", "a.exr")
         self.succeed("render", "scene.json", "-o", "a.png")

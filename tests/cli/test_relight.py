@@ -62,6 +62,19 @@ class Relight(support.CliTest):
         self.succeed("render", "lit.png", "-o", "again.png")
         self.assert_same_bytes("lit.png", "again.png")
 
+    def test_an_illuminant_with_a_name_too_long_for_a_palette(self):
+        for name in ("n" * 80, "x" + "\u00e4" * 40, "xx" + "\u00e4" * 40, "x" * 60 + "\u20ac" * 5):
+            self.write_text(name + ".csv", CSV)
+            self.succeed("relight", "image.exr", "-o", "lit.png", "--illuminant", f"{name}.csv:green")
+            self.succeed("render", "lit.png", "-o", "again.png")
+            self.assert_same_bytes("lit.png", "again.png")
+
+    def test_a_picture_with_a_new_palette_rendered_again_is_itself(self):
+        self.write_json("new.json", {"materials": NEW_MATERIALS, "lights": [{"name": "sun", "daylight": 5000}]})
+        self.succeed("relight", "image.exr", "-o", "lit.png", "--palette", "new.json", "--light", "sun=0.5")
+        self.succeed("render", "lit.png", "-o", "again.png")
+        self.assert_same_bytes("lit.png", "again.png")
+
     def test_a_background_color(self):
         scene = support.make_scene()
         scene["background"] = {"srgb": "#a05010"}
