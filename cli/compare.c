@@ -58,7 +58,9 @@ static int compare(const subcommand *command, const compare_request *request) {
     mtm_picture *pictures[2] = {NULL, NULL};
     mtm_picture *difference = NULL;
     mtm_comparison comparison = {0};
-    mtm_status status = open_picture(request->inputs[0], &pictures[0], &error);
+    mtm_status status = MTM_OK;
+    if (request->output != NULL) status = check_picture_output(request->output, false, &error);
+    if (status == MTM_OK) status = open_picture(request->inputs[0], &pictures[0], &error);
     if (status == MTM_OK) status = open_picture(request->inputs[1], &pictures[1], &error);
     if (status == MTM_OK) status = mtm_picture_compare(pictures[0], pictures[1], &comparison, &error);
     if (status == MTM_OK && request->output != NULL) {

@@ -153,7 +153,7 @@ static int relight(const subcommand *command, const relight_request *request) {
     mtm_image *image = NULL;
     mtm_scene *scene = NULL;
     mtm_picture *picture = NULL;
-    mtm_status status = check_output(request->output, &error);
+    mtm_status status = check_picture_output(request->output, false, &error);
     if (status == MTM_OK) status = mtm_image_read(request->input, &image, &error);
     if (status == MTM_OK) status = mtm_scene_of_image(image, request->input, &scene, &error);
     if (status == MTM_OK) status = apply_request(request, scene, &error);

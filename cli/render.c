@@ -91,7 +91,7 @@ static int render(const subcommand *command, const render_request *request) {
     mtm_volume *volume = NULL;
     mtm_image *image = NULL;
     progress_bar bar;
-    mtm_status status = check_output(request->output, &error);
+    mtm_status status = check_picture_output(request->output, true, &error);
     if (status == MTM_OK) status = open_scene(request->input, request->volume, &scene, &volume, &error);
     if (status == MTM_OK) {
         apply_request(request, scene);

@@ -110,17 +110,30 @@ mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **sce
     return status == MTM_OK ? mtm_scene_load_volume(*scene, volume_path, volume, error) : status;
 }
 
-mtm_status check_output(const char *path, mtm_error *error) {
+/* Neither a file nor a folder, but something to write into: a device, a pipe. */
+static bool is_device(const char *path) {
     struct stat state;
-    const bool is_device = stat(path, &state) == 0 && !S_ISREG(state.st_mode) && !S_ISDIR(state.st_mode);
+    return stat(path, &state) == 0 && !S_ISREG(state.st_mode) && !S_ISDIR(state.st_mode);
+}
+
+mtm_status check_output(const char *path, mtm_error *error) {
     char *folder = folder_of(path);
     const bool is_writable =
-        is_device ? access(path, W_OK) == 0 : folder != NULL && access(folder, W_OK | X_OK) == 0;
+        is_device(path) ? access(path, W_OK) == 0 : folder != NULL && access(folder, W_OK | X_OK) == 0;
     if (!is_writable)
         (void)snprintf(error->message, sizeof error->message, "%s: cannot be written: %s", path,
                        strerror(errno));
     free(folder);
     return is_writable ? MTM_OK : MTM_IO;
+}
+
+mtm_status check_picture_output(const char *path, bool is_image_possible, mtm_error *error) {
+    if (has_extension(path, ".png") || (is_image_possible && has_extension(path, ".exr")) || is_device(path))
+        return check_output(path, error);
+    (void)snprintf(error->message, sizeof error->message, "%s: %s", path,
+                   is_image_possible ? "the output's name must end in .exr (spectral image) or .png (picture)"
+                                     : "the output is a picture, so its name must end in .png");
+    return MTM_ARGUMENT;
 }
 
 mtm_status write_picture(const mtm_picture *picture, const mtm_scene *scene, const char *path,

@@ -32,6 +32,10 @@ mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **sce
  * its folder must allow that; a device or a pipe is written itself. */
 mtm_status check_output(const char *path, mtm_error *error);
 
+/* The same for a picture, whose name ends in .png (or .exr where `is_image_possible`), so that no spectral image is
+ * replaced by a picture by mistake. Devices and pipes may have any name. */
+mtm_status check_picture_output(const char *path, bool is_image_possible, mtm_error *error);
+
 /* Writes the picture with the scene it shows embedded. */
 mtm_status write_picture(const mtm_picture *picture, const mtm_scene *scene, const char *path,
                          mtm_error *error);

@@ -129,6 +129,13 @@ class Output(support.CliTest):
             os.mkdir(self.path(f"folder.{extension}"))
         self.refuse_all("folder.{}", ["directory"])
 
+    def test_a_name_that_says_something_else(self):
+        for words, extension in self.commands:
+            for name in ("out", "out.jpg", ".png", "png"):
+                self.refuse(*words, "-o", name, texts=[name, ".nrrd" if "convert" in words else ".png"])
+        self.refuse("relight", "in.exr", "-o", "in.exr", texts=["in.exr", ".png"])
+        self.refuse("compare", "in.exr", "in.png", "-o", "in.exr", texts=["in.exr", ".png"])
+
     def test_an_empty_name(self):
         for words, extension in self.commands:
             self.refuse(*words, "-o", "")
