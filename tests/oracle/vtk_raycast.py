@@ -213,7 +213,7 @@ def main():
     parser.add_argument("metamer")
     parser.add_argument("volume")
     parser.add_argument("output")
-    parser.add_argument("--bound", type=float, default=32)
+    parser.add_argument("--bound", type=float, default=40, help="smallest PSNR in dB")
     request = parser.parse_args()
     if needs_display():
         print("skipped: no display; install xvfb-run")
@@ -242,6 +242,8 @@ def main():
         failures.append(f"only {covered:.1%} of the picture shows the volume")
     if quality < request.bound:
         failures.append(f"PSNR is below {request.bound} dB")
+    if abs(ours.mean() / theirs.mean() - 1) > 0.02:
+        failures.append("the pictures are not equally bright")
     if movement != (0, 0):
         failures.append(f"the pictures are apart by {movement} pixels")
     for failure in failures:
