@@ -15,7 +15,7 @@ static const command_option options[] = {
     {"--palette", "NEW.json", "new reflectances (basis materials) and lights, by name"},
     {"--observer", "NAME", "cie1931"},
     {"--intensity", "X", "brightness of the light, default as in the scene"},
-    {"--background", "HEX|none", "\"#202020\" behind the picture; none keeps transparency"},
+    {"--background", "HEX|none", "a color such as 202020 behind the picture; none keeps transparency"},
     {"--threads", "N", "default: all processors"},
     {NULL, NULL, NULL},
 };
@@ -125,10 +125,13 @@ static mtm_status take_background(const char *background, mtm_scene *scene, mtm_
         scene->background = MTM_BACKGROUND_NONE;
         return MTM_OK;
     }
-    const mtm_status status = mtm_rgb_parse(background, &color, error);
+    /* A shell takes an unquoted # for a comment, so it may be left out here. */
+    char hex[80];
+    (void)snprintf(hex, sizeof hex, "%s%s", background[0] == '#' ? "" : "#", background);
+    const mtm_status status = mtm_rgb_parse(hex, &color, error);
     if (status != MTM_OK) return status;
     scene->background = MTM_BACKGROUND_COLOR;
-    (void)snprintf(scene->background_srgb, sizeof scene->background_srgb, "%s", background);
+    (void)snprintf(scene->background_srgb, sizeof scene->background_srgb, "%.7s", hex);
     return MTM_OK;
 }
 

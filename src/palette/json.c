@@ -157,8 +157,10 @@ static void apply_filters(mtm_json_reader *reader, const json_t *object, const m
         const int material = name == NULL ? -1 : mtm_palette_find_material(palette, name);
         if (material < 0) {
             char preview[64];
-            mtm_json_fail(reader, "through", "names %s, which is no material of this palette",
-                          mtm_json_preview(json_array_get(filters, i), preview));
+            mtm_json_fail(reader, "through",
+                          "names %s, which is no material of this palette; the nearest is \"%s\"",
+                          mtm_json_preview(json_array_get(filters, i), preview),
+                          mtm_palette_nearest_material(palette, name == NULL ? "" : name));
             return;
         }
         *emission = mtm_spectrum_multiply(emission, &palette->materials[material].reflectance);

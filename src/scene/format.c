@@ -72,7 +72,7 @@ static json_t *format_background(const mtm_scene *scene) {
     if (scene->background == MTM_BACKGROUND_COLOR) return json_pack("{s:s}", "srgb", scene->background_srgb);
     if (scene->background == MTM_BACKGROUND_MATERIAL)
         return json_pack("{s:s}", "material", scene->palette.materials[scene->background_material].name);
-    return json_null();
+    return scene->background == MTM_BACKGROUND_NONE ? json_string("none") : json_null();
 }
 
 static json_t *format_render(const mtm_scene *scene) {

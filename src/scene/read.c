@@ -248,7 +248,13 @@ static void read_background(scene_reader *reader, const json_t *document) {
     mtm_rgb parsed;
     mtm_error reason;
     size_t place = 0;
-    if (json_is_null(json_object_get(document, "background"))) return;
+    const json_t *background = json_object_get(document, "background");
+    if (json_is_null(background)) return;
+    if (json->status == MTM_OK && json_is_string(background) &&
+        strcmp(json_string_value(background), "none") == 0) {
+        scene->background = MTM_BACKGROUND_NONE;
+        return;
+    }
     const json_t *object = enter_object(json, document, "background", KEYS(keys), &place);
     if (object != NULL && json_object_size(object) != 1) {
         mtm_json_fail(json, NULL, "must have either \"srgb\" or \"material\"");

@@ -79,13 +79,16 @@ class Relight(support.CliTest):
         scene = support.make_scene()
         scene["background"] = {"srgb": "#a05010"}
         self.render(scene, "direct.png")
-        self.succeed("relight", "image.exr", "-o", "lit.png", "--background", "#a05010")
-        self.assert_same_bytes("direct.png", "lit.png")
+        for spelling in ("#a05010", "a05010"):
+            self.succeed("relight", "image.exr", "-o", "lit.png", "--background", spelling)
+            self.assert_same_bytes("direct.png", "lit.png")
         self.assertEqual(support.png_color_type(self.path("lit.png")), 2)
 
     def test_no_background_keeps_alpha(self):
         self.succeed("relight", "image.exr", "-o", "clear.png", "--background", "none")
         self.assertEqual(support.png_color_type(self.path("clear.png")), 6)
+        self.succeed("render", "clear.png", "-o", "again.png")
+        self.assert_same_bytes("clear.png", "again.png")
 
     def test_a_material_behind_is_lit(self):
         scene = support.make_scene()
@@ -180,7 +183,7 @@ class Relight(support.CliTest):
                 (("--illuminant", "lamps.csv:none"), ["lamps.csv", "none", "line"]),
                 (("--illuminant", "missing.csv:green"), ["missing.csv"]),
                 (("--background", "red"), ["red"]), (("--background", "#12345"), ["#12345"]),
-                (("--background", "203040"), ["203040"]),
+                (("--background", "20304g"), ["20304g"]),
                 (("--palette", "missing.json"), ["missing.json"]),
                 (("--palette", "lamps.csv"), ["lamps.csv"])):
             self.write_text("lamps.csv", CSV)
