@@ -11,39 +11,32 @@
 #include "base/json.h"
 #include "base/memory.h"
 #include "palette/json.h"
-#include "scene/scene.h"
+#include "scene/read.h"
 
-enum { POINTS_MAX = 4096, STOPS_MAX = 4096 };
+enum { POINTS_MAX = 4096 };
 
-typedef struct scene_reader {
-    mtm_json_reader *json;
-    mtm_scene *scene;
-} scene_reader;
-
-/* Steps into an object of the document and checks its keys; *place is for mtm_json_leave. */
-static const json_t *enter_object(mtm_json_reader *json, const json_t *parent, const char *key,
-                                  const char *const *keys, size_t key_count, size_t *place) {
+const json_t *mtm_scene_enter_object(mtm_json_reader *json, const json_t *parent, const char *key,
+                                     const char *const *keys, size_t key_count, size_t *place) {
     const json_t *object = json->status == MTM_OK ? json_object_get(parent, key) : NULL;
     *place = json->path_length;
     if (object == NULL) return NULL;
     *place = mtm_json_enter(json, key);
     return mtm_json_expect_object(json, object, keys, key_count) ? object : NULL;
 }
-#define KEYS(array) (array), sizeof(array) / sizeof *(array)
 
 static void copy_text(mtm_json_reader *json, const char *text, char **copy) {
     *copy = mtm_text_copy(text);
     if (*copy == NULL) json->status = mtm_fail_memory(json->error, "the scene", strlen(text));
 }
 
-static void read_volume(scene_reader *reader, const json_t *document) {
+static void read_volume(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"file", "size", "sha256"};
     mtm_json_reader *json = reader->json;
     const char *file = NULL;
     const char *hash = NULL;
     size_t place = 0;
     if (mtm_json_required(json, document, "volume") == NULL) return;
-    const json_t *object = enter_object(json, document, "volume", KEYS(keys), &place);
+    const json_t *object = mtm_scene_enter_object(json, document, "volume", KEYS(keys), &place);
     if (object != NULL && mtm_json_required(json, object, "file") != NULL &&
         mtm_json_text(json, object, "file", &file))
         copy_text(json, file, &reader->scene->volume_file);
@@ -58,7 +51,7 @@ static void read_volume(scene_reader *reader, const json_t *document) {
     mtm_json_leave(json, place);
 }
 
-static void read_palette_file(scene_reader *reader, const char *file) {
+static void read_palette_file(mtm_scene_reader *reader, const char *file) {
     mtm_error reason;
     char *path = mtm_path_join(reader->scene->folder, file);
     if (path == NULL) {
@@ -70,12 +63,12 @@ static void read_palette_file(scene_reader *reader, const char *file) {
     free(path);
 }
 
-static void read_palette(scene_reader *reader, const json_t *document) {
+static void read_palette(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"file", "materials", "lights"};
     mtm_json_reader *json = reader->json;
     const char *file = NULL;
     size_t place = 0;
-    const json_t *object = enter_object(json, document, "palette", KEYS(keys), &place);
+    const json_t *object = mtm_scene_enter_object(json, document, "palette", KEYS(keys), &place);
     if (object != NULL && json_object_get(object, "file") == NULL)
         mtm_palette_from_json(json, object, reader->scene->folder, &reader->scene->palette);
     else if (object != NULL && json_object_size(object) > 1)
@@ -91,7 +84,7 @@ static void read_palette(scene_reader *reader, const json_t *document) {
 }
 
 /* Index of the material a key names, or -1 after a failure. */
-static int read_material(scene_reader *reader, const json_t *object, const char *key) {
+static int read_material(mtm_scene_reader *reader, const json_t *object, const char *key) {
     const char *name = NULL;
     if (mtm_json_required(reader->json, object, key) == NULL) return -1;
     if (!mtm_json_text(reader->json, object, key, &name)) return -1;
@@ -103,7 +96,7 @@ static int read_material(scene_reader *reader, const json_t *object, const char 
     return material;
 }
 
-static void read_point(scene_reader *reader, const json_t *object, mtm_transfer_point *point) {
+static void read_point(mtm_scene_reader *reader, const json_t *object, mtm_transfer_point *point) {
     static const char *const keys[] = {"value", "opacity", "emission", "material"};
     mtm_json_reader *json = reader->json;
     if (!mtm_json_expect_object(json, object, KEYS(keys))) return;
@@ -116,7 +109,7 @@ static void read_point(scene_reader *reader, const json_t *object, mtm_transfer_
     point->material = read_material(reader, object, "material");
 }
 
-static void read_points(scene_reader *reader, const json_t *transfer) {
+static void read_points(mtm_scene_reader *reader, const json_t *transfer) {
     mtm_json_reader *json = reader->json;
     mtm_scene *scene = reader->scene;
     const json_t *points = mtm_json_required(json, transfer, "points");
@@ -146,12 +139,12 @@ static void read_points(scene_reader *reader, const json_t *transfer) {
 
 static const mtm_json_range positive = {1e-300, HUGE_VAL};
 
-static void read_transfer(scene_reader *reader, const json_t *document) {
+static void read_transfer(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"opacity_length", "points"};
     mtm_json_reader *json = reader->json;
     size_t place = 0;
     if (mtm_json_required(json, document, "transfer") == NULL) return;
-    const json_t *object = enter_object(json, document, "transfer", KEYS(keys), &place);
+    const json_t *object = mtm_scene_enter_object(json, document, "transfer", KEYS(keys), &place);
     if (object != NULL) {
         (void)mtm_json_number(json, object, "opacity_length", positive, &reader->scene->opacity_length);
         read_points(reader, object);
@@ -173,12 +166,12 @@ static bool read_direction(mtm_json_reader *json, const json_t *object, const ch
     return true;
 }
 
-static void read_camera(scene_reader *reader, const json_t *document) {
+static void read_camera(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"azimuth", "elevation", "distance", "target", "up", "fov", "height"};
     mtm_json_reader *json = reader->json;
     mtm_camera *camera = &reader->scene->camera;
     size_t place = 0;
-    const json_t *object = enter_object(json, document, "camera", KEYS(keys), &place);
+    const json_t *object = mtm_scene_enter_object(json, document, "camera", KEYS(keys), &place);
     if (object != NULL) {
         (void)mtm_json_number(json, object, "azimuth", mtm_json_any, &camera->azimuth);
         (void)mtm_json_number(json, object, "elevation", mtm_json_any, &camera->elevation);
@@ -191,13 +184,13 @@ static void read_camera(scene_reader *reader, const json_t *document) {
     mtm_json_leave(json, place);
 }
 
-static void read_shading(scene_reader *reader, const json_t *document) {
+static void read_shading(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"ambient",   "diffuse",   "specular",
                                        "shininess", "direction", "gradient_threshold"};
     mtm_json_reader *json = reader->json;
     mtm_shading *shading = &reader->scene->render.shading;
     size_t place = 0;
-    const json_t *object = enter_object(json, document, "shading", KEYS(keys), &place);
+    const json_t *object = mtm_scene_enter_object(json, document, "shading", KEYS(keys), &place);
     if (object != NULL) {
         (void)mtm_json_number(json, object, "ambient", mtm_json_not_negative, &shading->ambient);
         (void)mtm_json_number(json, object, "diffuse", mtm_json_not_negative, &shading->diffuse);
@@ -215,12 +208,12 @@ static void read_shading(scene_reader *reader, const json_t *document) {
     mtm_json_leave(json, place);
 }
 
-static void read_clip(scene_reader *reader, const json_t *document) {
+static void read_clip(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"box"};
     mtm_json_reader *json = reader->json;
     mtm_render_options *render = &reader->scene->render;
     size_t place = 0;
-    const json_t *object = enter_object(json, document, "clip", KEYS(keys), &place);
+    const json_t *object = mtm_scene_enter_object(json, document, "clip", KEYS(keys), &place);
     const json_t *box = object == NULL ? NULL : mtm_json_required(json, object, "box");
     if (box != NULL && (!json_is_array(box) || json_array_size(box) != 2)) {
         mtm_json_fail(json, "box", "must be two corners, [[x,y,z],[x,y,z]]");
@@ -240,7 +233,7 @@ static void read_clip(scene_reader *reader, const json_t *document) {
     mtm_json_leave(json, place);
 }
 
-static void read_background(scene_reader *reader, const json_t *document) {
+static void read_background(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"srgb", "material"};
     mtm_json_reader *json = reader->json;
     mtm_scene *scene = reader->scene;
@@ -255,7 +248,7 @@ static void read_background(scene_reader *reader, const json_t *document) {
         scene->background = MTM_BACKGROUND_NONE;
         return;
     }
-    const json_t *object = enter_object(json, document, "background", KEYS(keys), &place);
+    const json_t *object = mtm_scene_enter_object(json, document, "background", KEYS(keys), &place);
     if (object != NULL && json_object_size(object) != 1) {
         mtm_json_fail(json, NULL, "must have either \"srgb\" or \"material\"");
     } else if (object != NULL && mtm_json_text(json, object, "srgb", &color)) {
@@ -294,7 +287,7 @@ static void read_names(mtm_json_reader *json, const json_t *object, mtm_scene *s
     (void)snprintf(scene->basis, sizeof scene->basis, "%s", basis);
 }
 
-static void read_render(scene_reader *reader, const json_t *document) {
+static void read_render(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"renderer", "basis", "size", "step", "blend", "jitter", "termination"};
     static const char *const blends[] = {"composite", "sum", "maximum"};
     mtm_json_reader *json = reader->json;
@@ -302,7 +295,7 @@ static void read_render(scene_reader *reader, const json_t *document) {
     int size[2];
     int blend = 0;
     size_t place = 0;
-    const json_t *object = enter_object(json, document, "render", KEYS(keys), &place);
+    const json_t *object = mtm_scene_enter_object(json, document, "render", KEYS(keys), &place);
     if (object != NULL) {
         read_names(json, object, reader->scene);
         if (mtm_json_integers(json, object, "size", 2, 1, MTM_IMAGE_EDGE_MAX, size)) {
@@ -317,7 +310,7 @@ static void read_render(scene_reader *reader, const json_t *document) {
     mtm_json_leave(json, place);
 }
 
-static void read_display(scene_reader *reader, const json_t *document) {
+static void read_display(mtm_scene_reader *reader, const json_t *document) {
     static const char *const whites[] = {"none", "light"};
     mtm_json_reader *json = reader->json;
     const char *name = NULL;
@@ -333,127 +326,6 @@ static void read_display(scene_reader *reader, const json_t *document) {
         reader->scene->is_white_adapted = white == 1;
 }
 
-/* Index of the light a key of `weights` or `bulbs` names, or -1 after a failure. */
-static int find_light(scene_reader *reader, const char *name) {
-    const int light = mtm_palette_find_light(&reader->scene->palette, name);
-    if (light < 0)
-        mtm_json_fail(reader->json, name, "is no light of the palette; the nearest is \"%s\"",
-                      mtm_palette_nearest_light(&reader->scene->palette, name));
-    return light;
-}
-
-static void read_weights(scene_reader *reader, const json_t *object, mtm_light_mix *mix) {
-    mtm_json_reader *json = reader->json;
-    const json_t *weights = json->status == MTM_OK ? json_object_get(object, "weights") : NULL;
-    const char *name = NULL;
-    json_t *weight = NULL;
-    if (weights == NULL) return;
-    const size_t place = mtm_json_enter(json, "weights");
-    if (!json_is_object(weights)) mtm_json_fail(json, NULL, "must be an object of light names and weights");
-    for (int i = 0; i < reader->scene->palette.light_count; i++) mix->weights[i] = 0;
-    json_object_foreach((json_t *)weights, name, weight) {
-        const int light = json->status == MTM_OK ? find_light(reader, name) : -1;
-        if (light >= 0)
-            (void)mtm_json_number(json, weights, name, mtm_json_not_negative, &mix->weights[light]);
-    }
-    mtm_json_leave(json, place);
-}
-
-static void read_bulbs(scene_reader *reader, const json_t *dial, mtm_light_mix *mix) {
-    static const char *const keys[] = {"at", "on"};
-    mtm_json_reader *json = reader->json;
-    const json_t *bulbs = json->status == MTM_OK ? json_object_get(dial, "bulbs") : NULL;
-    const char *name = NULL;
-    json_t *object = NULL;
-    if (bulbs == NULL) return;
-    const size_t place = mtm_json_enter(json, "bulbs");
-    if (!json_is_object(bulbs)) mtm_json_fail(json, NULL, "must be an object of light names and bulbs");
-    json_object_foreach((json_t *)bulbs, name, object) {
-        mtm_bulb bulb = {.light = json->status == MTM_OK ? find_light(reader, name) : -1, .is_on = true};
-        if (bulb.light < 0) break;
-        const size_t element = mtm_json_enter(json, name);
-        if (mtm_json_expect_object(json, object, KEYS(keys)) &&
-            mtm_json_required(json, object, "at") != NULL) {
-            (void)mtm_json_numbers(json, object, "at", 2, mtm_json_any, bulb.at);
-            (void)mtm_json_boolean(json, object, "on", &bulb.is_on);
-            mix->bulbs[mix->bulb_count++] = bulb;
-        }
-        mtm_json_leave(json, element);
-    }
-    mtm_json_leave(json, place);
-}
-
-/* The keys that the scene's lights and every stop have in common. */
-static void read_mix(scene_reader *reader, const json_t *object, mtm_light_mix *mix) {
-    static const char *const dial_keys[] = {"dot", "bulbs"};
-    mtm_json_reader *json = reader->json;
-    size_t place = 0;
-    read_weights(reader, object, mix);
-    (void)mtm_json_number(json, object, "intensity", mtm_json_not_negative, &mix->intensity);
-    const json_t *dial = enter_object(json, object, "dial", KEYS(dial_keys), &place);
-    if (dial != NULL) {
-        mix->has_dot = mtm_json_numbers(json, dial, "dot", 2, mtm_json_any, mix->dot);
-        read_bulbs(reader, dial, mix);
-    }
-    mtm_json_leave(json, place);
-}
-
-static void read_stop(scene_reader *reader, const json_t *object, mtm_stop *stop) {
-    static const char *const keys[] = {"name", "weights", "intensity", "dial"};
-    mtm_json_reader *json = reader->json;
-    const char *name = NULL;
-    if (!mtm_json_expect_object(json, object, KEYS(keys))) return;
-    if (mtm_json_required(json, object, "name") == NULL || mtm_json_required(json, object, "weights") == NULL)
-        return;
-    if (!mtm_json_text(json, object, "name", &name)) return;
-    if (strlen(name) > MTM_NAME_MAX)
-        mtm_json_fail(json, "name", "has %zu bytes, at most %d are allowed", strlen(name), MTM_NAME_MAX);
-    for (const mtm_stop *other = reader->scene->stops; other < stop; other++)
-        if (strcmp(other->name, name) == 0)
-            mtm_json_fail(json, "name", "\"%s\" is an earlier stop's, too", name);
-    (void)snprintf(stop->name, sizeof stop->name, "%s", name);
-    read_mix(reader, object, &stop->mix);
-}
-
-static void read_stops(scene_reader *reader, const json_t *lights) {
-    mtm_json_reader *json = reader->json;
-    mtm_scene *scene = reader->scene;
-    const json_t *stops = json->status == MTM_OK ? json_object_get(lights, "stops") : NULL;
-    if (stops == NULL) return;
-    const size_t count = json_array_size(stops);
-    if (!json_is_array(stops) || count > STOPS_MAX) {
-        mtm_json_fail(json, "stops", "must be an array of at most %d stops", STOPS_MAX);
-        return;
-    }
-    scene->stops = mtm_allocate(count, sizeof *scene->stops);
-    if (scene->stops == NULL)
-        json->status = mtm_fail_memory(json->error, "the stops", count * sizeof *scene->stops);
-    const size_t place = mtm_json_enter(json, "stops");
-    for (size_t i = 0; i < count && json->status == MTM_OK; i++) {
-        const size_t element = mtm_json_enter_index(json, i);
-        json->status = mtm_light_mix_create(scene->palette.light_count, &scene->stops[i].mix, json->error);
-        scene->stop_count = (int)i + (json->status == MTM_OK);
-        if (json->status == MTM_OK) read_stop(reader, json_array_get(stops, i), &scene->stops[i]);
-        mtm_json_leave(json, element);
-    }
-    mtm_json_leave(json, place);
-}
-
-static void read_lights(scene_reader *reader, const json_t *document) {
-    static const char *const keys[] = {"weights", "intensity", "dial", "stops"};
-    mtm_json_reader *json = reader->json;
-    mtm_scene *scene = reader->scene;
-    size_t place = 0;
-    if (json->status != MTM_OK) return;
-    json->status = mtm_light_mix_create(scene->palette.light_count, &scene->lights, json->error);
-    const json_t *object = enter_object(json, document, "lights", KEYS(keys), &place);
-    if (object != NULL) {
-        read_mix(reader, object, &scene->lights);
-        read_stops(reader, object);
-    }
-    mtm_json_leave(json, place);
-}
-
 /* Words that later versions of the document will use. */
 static void refuse_reserved(mtm_json_reader *json, const json_t *document) {
     static const char *const reserved[] = {"labels", "channels", "animation", "positions"};
@@ -462,7 +334,7 @@ static void refuse_reserved(mtm_json_reader *json, const json_t *document) {
             mtm_json_fail(json, reserved[i], "is not supported yet");
 }
 
-static void read_document(scene_reader *reader, const json_t *document) {
+static void read_document(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"metamer", "volume",     "palette", "transfer", "camera", "shading",
                                        "clip",    "background", "render",  "observer", "white",  "lights"};
     mtm_json_reader *json = reader->json;
@@ -480,7 +352,7 @@ static void read_document(scene_reader *reader, const json_t *document) {
     read_background(reader, document);
     read_render(reader, document);
     read_display(reader, document);
-    read_lights(reader, document);
+    mtm_scene_read_lights(reader, document);
 }
 
 mtm_status mtm_scene_parse(const char *document, const char *text, const char *folder, mtm_scene **scene,
@@ -491,7 +363,7 @@ mtm_status mtm_scene_parse(const char *document, const char *text, const char *f
     if (status == MTM_OK) status = mtm_scene_create(document, folder, &made, error);
     if (status == MTM_OK) {
         mtm_json_reader json = mtm_json_begin(document, error);
-        read_document(&(scene_reader){&json, made}, object);
+        read_document(&(mtm_scene_reader){&json, made}, object);
         status = json.status;
     }
     json_decref(object);
