@@ -35,7 +35,7 @@ struct mtm_transfer {
     const float *white;
 };
 
-enum { MTM_LOOKUP_CELLS = 6144 };
+enum { MTM_LOOKUP_CELLS_PER_UNIT = 2048, MTM_LOOKUP_CELLS = 3 * MTM_LOOKUP_CELLS_PER_UNIT };
 
 /* Position of a physical value; the same arithmetic for points and for voxels, so that equal values meet. */
 static inline float mtm_transfer_position(const struct mtm_transfer *transfer, double value) {
@@ -48,7 +48,7 @@ static inline float mtm_transfer_clamp(float position) {
 
 /* The cell (index of its first node) that holds a clamped position. */
 static inline int mtm_transfer_cell(const struct mtm_transfer *transfer, float position) {
-    int cell = transfer->lookup[(int)((position + 1.0f) * (MTM_LOOKUP_CELLS / 3))];
+    int cell = transfer->lookup[(int)((position + 1.0f) * MTM_LOOKUP_CELLS_PER_UNIT)];
     while (cell + 2 < transfer->node_count && transfer->nodes[cell + 1].position <= position) cell++;
     return cell;
 }

@@ -87,7 +87,7 @@ static bool is_visible(const mtm_transfer_node *node) {
 static void fill_lookups(mtm_transfer *transfer) {
     int node = 0;
     for (int cell = 0; cell <= MTM_LOOKUP_CELLS; cell++) {
-        const float begin = (float)cell / (MTM_LOOKUP_CELLS / 3) - 1.0f;
+        const float begin = (float)cell / MTM_LOOKUP_CELLS_PER_UNIT - 1.0f;
         while (node + 2 < transfer->node_count && transfer->nodes[node + 1].position < begin) node++;
         transfer->lookup[cell] = node;
     }
