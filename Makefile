@@ -1,19 +1,53 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The words this project is worked with; `make help` lists them. CMake does the building.
-.PHONY: help setup build test asan tsan format lint clean
+# The words this project is worked with; `make help` lists them. CMake does the building, tools/ holds what is longer
+# than a line. Words that need packages install them where they are missing (tools/bootstrap).
+PREFIX ?= /usr/local
+FUZZ_SECONDS ?= 60
+SCENE ?= examples/engine/engine.json
+RUNS ?= 5
+export FUZZ_SECONDS
+
+.PHONY: help setup build demo test bench format lint asan tsan fuzz install clean
 
 help: ## this list
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 18
+	@sed -nE 's/^([a-z]+):.*## /  make \1\t/p' Makefile | expand -t 18
 
 setup: ## install what building and testing need (Debian)
 	@tools/bootstrap
 
 build: ## build/release/metamer
-	@cmake --preset release >build.log 2>&1 || { cat build.log; rm -f build.log; exit 1; }; rm -f build.log
-	@cmake --build --preset release
+	@tools/bootstrap --quiet build && tools/build release
+
+demo: ## render the engine once, light it three times, into demo/
+	@tools/demo
+
+test: ## everything before a commit: all tests, lint, all tests again under ASan and UBSan
+	@tools/bootstrap --quiet
+	@tools/check release && tools/lint && tools/check asan
+	@echo "make test: all passed"
+
+bench: ## how long projecting and relighting take (SCENE=… RUNS=…)
+	@tools/bootstrap --quiet build && tools/build release
+	@build/release/bench/frames $(SCENE) $(RUNS)
 
 format: ## format all C sources in place
-	@clang-format -i $$(git ls-files '*.c' '*.h')
+	@tools/bootstrap --quiet && tools/list_files '*.c' '*.h' | xargs clang-format -i
+
+lint: ## layers, text rules, format, clang-tidy, shell scripts
+	@tools/bootstrap --quiet && tools/lint
+
+asan: ## build and test with AddressSanitizer and UndefinedBehaviorSanitizer
+	@tools/bootstrap --quiet && tools/check asan
+
+tsan: ## build and test with ThreadSanitizer
+	@tools/bootstrap --quiet && tools/check tsan
+
+fuzz: ## FUZZ_SECONDS (default 60) of libFuzzer for every reader
+	@tools/bootstrap --quiet && tools/fuzz
+
+install: ## install to PREFIX (default /usr/local), below DESTDIR
+	@tools/bootstrap --quiet build && tools/build release
+	@DESTDIR='$(DESTDIR)' cmake --install build/release --prefix '$(PREFIX)'
 
 clean: ## remove everything that was built
 	@rm -rf build demo
