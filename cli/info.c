@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * metamer info: what a file holds, for people or as JSON (docs/info.md has the form for every kind of file). */
+ * metamer info: what a file holds, for people or as JSON (docs/files.md has the form for every kind of file). */
 #include <inttypes.h>
 #include <jansson.h>
 #include <math.h>
