@@ -98,6 +98,9 @@ mtm_status mtm_output_open(const char *path, mtm_output *output, mtm_error *erro
     *output = (mtm_output){.target = realpath(path, NULL)};
     if (output->target == NULL) output->target = mtm_text_copy(path);
     if (output->target == NULL) return mtm_fail_memory(error, path, strlen(path));
+    /* Renaming would replace a file that its owner has locked. */
+    if (mtm_file_exists(output->target) && access(output->target, W_OK) != 0)
+        return fail_output(output, path, error);
     output->stream =
         is_written_directly(output->target) ? fopen(output->target, "wb") : open_temporary(output);
     return output->stream == NULL ? fail_output(output, path, error) : MTM_OK;
