@@ -17,10 +17,16 @@
 const mtm_json_range mtm_json_any = {-HUGE_VAL, HUGE_VAL};
 const mtm_json_range mtm_json_not_negative = {0, HUGE_VAL};
 const mtm_json_range mtm_json_unit = {0, 1};
+const mtm_json_range mtm_json_amount = {0, 1e6};
 
 mtm_status mtm_json_parse(const char *document, const char *text, size_t byte_count, json_t **value,
                           mtm_error *error) {
+    static const char utf8_mark[] = "\xEF\xBB\xBF"; /* some editors begin a file with it */
     json_error_t reason;
+    if (byte_count >= 3 && memcmp(text, utf8_mark, 3) == 0) {
+        text += 3;
+        byte_count -= 3;
+    }
     *value = json_loadb(text, byte_count, JSON_REJECT_DUPLICATES, &reason);
     if (*value != NULL) return MTM_OK;
     return mtm_fail(error, MTM_FORMAT, "%s:%d: is no JSON document: %s", document, reason.line, reason.text);
@@ -55,6 +61,15 @@ void mtm_json_fail(mtm_json_reader *reader, const char *key, const char *format,
     const char *place = reader->path_length == 0 && key == NULL ? "the document" : reader->path;
     reader->status =
         mtm_fail(reader->error, MTM_FORMAT, "%s: %s%s%s %s", reader->document, place, dot, name, sentence);
+}
+
+void mtm_json_fail_name(mtm_json_reader *reader, const char *key, const char *name, const char *kind,
+                        const char *nearest) {
+    if (nearest[0] == '\0')
+        mtm_json_fail(reader, key, "is \"%.64s\", but the palette has no %s", name, kind);
+    else
+        mtm_json_fail(reader, key, "is \"%.64s\", which is no %s of the palette; the nearest is \"%s\"", name,
+                      kind, nearest);
 }
 
 static size_t extend_path(mtm_json_reader *reader, const char *separator, const char *step, const char *end) {

@@ -28,6 +28,7 @@ typedef struct mtm_json_range {
 extern const mtm_json_range mtm_json_any;          /* every finite number */
 extern const mtm_json_range mtm_json_not_negative; /* 0 and above */
 extern const mtm_json_range mtm_json_unit;         /* 0 … 1 */
+extern const mtm_json_range mtm_json_amount; /* 0 … 10⁶: an amount of light, far from what floats hold */
 
 /* The text of a document; a file that holds a NUL is none (MTM_FORMAT). Release with free(). */
 MTM_CHECK mtm_status mtm_json_read_text(const char *path, char **text, mtm_error *error);
@@ -41,6 +42,10 @@ mtm_json_reader mtm_json_begin(const char *document, mtm_error *error);
 /* Fails at `key` of the present place (NULL: the place itself) with a sentence that follows its name. */
 __attribute__((format(printf, 3, 4))) void mtm_json_fail(mtm_json_reader *reader, const char *key,
                                                          const char *format, ...);
+
+/* Fails because `name` is no `kind` ("material"); `nearest` is the known name most like it, "" where none is known. */
+void mtm_json_fail_name(mtm_json_reader *reader, const char *key, const char *name, const char *kind,
+                        const char *nearest);
 
 /* Steps into a key or an element, and back out. */
 size_t mtm_json_enter(mtm_json_reader *reader, const char *key);

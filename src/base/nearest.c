@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <limits.h>
 #include <string.h>
+#include <strings.h>
 
 enum { LENGTH_LIMIT = 63 };
 
@@ -36,12 +37,18 @@ int mtm_edit_distance(const char *a, const char *b) {
     return row[b_length];
 }
 
+/* A name that was cut short is nearer to the whole than its missing letters say. */
+static int name_distance(const char *name, const char *known) {
+    const size_t length = strlen(name);
+    return length >= 3 && strncasecmp(name, known, length) == 0 ? 1 : mtm_edit_distance(name, known);
+}
+
 const char *mtm_nearest_name(const char *name, const char *const *names, size_t count) {
     assert(count >= 1);
     const char *nearest = names[0];
     int nearest_distance = INT_MAX;
     for (size_t i = 0; i < count; i++) {
-        const int distance = mtm_edit_distance(name, names[i]);
+        const int distance = name_distance(name, names[i]);
         if (distance >= nearest_distance) continue;
         nearest = names[i];
         nearest_distance = distance;

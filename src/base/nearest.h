@@ -9,7 +9,8 @@
  * ignored; only the first 63 characters count. */
 int mtm_edit_distance(const char *a, const char *b);
 
-/* The one of `count` names (count ≥ 1) with the smallest edit distance, the first of equals. */
+/* The one of `count` names (count ≥ 1) with the smallest edit distance, the first of equals; three letters or more
+ * that begin a name count as one edit. */
 const char *mtm_nearest_name(const char *name, const char *const *names, size_t count);
 
 #endif

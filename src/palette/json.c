@@ -155,12 +155,15 @@ static void apply_filters(mtm_json_reader *reader, const json_t *object, const m
     for (size_t i = 0; i < json_array_size(filters); i++) {
         const char *name = json_string_value(json_array_get(filters, i));
         const int material = name == NULL ? -1 : mtm_palette_find_material(palette, name);
-        if (material < 0) {
+        if (name == NULL) {
             char preview[64];
-            mtm_json_fail(reader, "through",
-                          "names %s, which is no material of this palette; the nearest is \"%s\"",
-                          mtm_json_preview(json_array_get(filters, i), preview),
-                          mtm_palette_nearest_material(palette, name == NULL ? "" : name));
+            mtm_json_fail(reader, "through", "holds %s, must hold names of materials",
+                          mtm_json_preview(json_array_get(filters, i), preview));
+            return;
+        }
+        if (material < 0) {
+            mtm_json_fail_name(reader, "through", name, "material",
+                               mtm_palette_nearest_material(palette, name));
             return;
         }
         *emission = mtm_spectrum_multiply(emission, &palette->materials[material].reflectance);
@@ -195,8 +198,12 @@ static void read_list(mtm_json_reader *reader, const json_t *object, const char 
                       void (*read)(mtm_json_reader *, const json_t *, const char *, mtm_palette *)) {
     const json_t *list = json_object_get(object, key);
     if (list == NULL) return;
-    if (!json_is_array(list) || json_array_size(list) > limit) {
-        mtm_json_fail(reader, key, "must be an array of at most %zu elements", limit);
+    if (!json_is_array(list)) {
+        mtm_json_fail(reader, key, "must be an array");
+        return;
+    }
+    if (json_array_size(list) > limit) {
+        mtm_json_fail(reader, key, "has %zu elements, at most %zu are allowed", json_array_size(list), limit);
         return;
     }
     const size_t place = mtm_json_enter(reader, key);

@@ -34,6 +34,8 @@ static void the_nearest_name_has_the_fewest_edits(void **state) {
     assert_int_equal(mtm_edit_distance("D65", "d65"), 0);
     assert_string_equal(mtm_nearest_name("diffus", names, 4), "diffuse");
     assert_string_equal(mtm_nearest_name("shinyness", names, 4), "shininess");
+    static const char *const patches[] = {"blue", "dark_skin"};
+    assert_string_equal(mtm_nearest_name("dark", patches, 2), "dark_skin"); /* cut short */
 }
 
 static void paths_are_taken_apart_and_joined(void **state) {

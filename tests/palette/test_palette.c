@@ -147,6 +147,9 @@ static void bad_palettes_are_refused_with_key_and_value(void **state) {
     assert_refused("{\"lights\": [{\"name\": \"l\", \"srgb\": \"#000000\"}]}", "lights[0]");
     assert_refused("{\"lights\": [{\"name\": \"l\", \"illuminant\": \"E\", \"through\": [\"glass\"]}]}",
                    "glass");
+    assert_refused("{\"lights\": [{\"name\": \"l\", \"illuminant\": \"E\", \"through\": [5]}]}", "holds 5");
+    assert_refused("{\"lights\": [{\"name\": \"l\", \"illuminant\": \"E\", \"through\": [\"x\"]}]}",
+                   "the palette has no material");
     assert_refused("{\"materials\": 7}", "must be an array");
     assert_refused("{\"materials\": [", "test.json:1");
 }
