@@ -159,9 +159,11 @@ static axis_scale scale_of(const axis_fields *fields, int axis, int size) {
 static mtm_status check_spacing(const mtm_nrrd_header *header, int axis, double spacing, mtm_error *error) {
     if (isfinite(spacing) && spacing != 0.0) return MTM_OK;
     const bool has_spacings = header->values[MTM_NRRD_SPACINGS] != NULL;
-    return mtm_fail(error, MTM_FORMAT,
-                    "%s: field '%s' gives axis %d a spacing of %g, expected one that is not 0", header->path,
-                    has_spacings ? "spacings" : "axis maxs", axis, spacing);
+    return mtm_fail(
+        error, MTM_FORMAT,
+        "%s: field '%s' gives axis %d a spacing of %g, expected a number that is not 0 (or nan for "
+        "every axis: not known)",
+        header->path, has_spacings ? "spacings" : "axis maxs", axis, spacing);
 }
 
 /* A grid along x, y, z. Spacings that are missing on every axis are 1. */

@@ -83,7 +83,11 @@ static mtm_status open_part(const nrrd_reader *reader, int index, data_part *par
         part->path = mtm_nrrd_file_path(&reader->files, index);
         if (part->path == NULL) return mtm_fail_memory(error, reader->header.path, BUFSIZ);
         part->name = part->path;
-        status = mtm_open_regular(part->path, &part->stream, error);
+        mtm_error reason;
+        status = mtm_open_regular(part->path, &part->stream, &reason);
+        if (status != MTM_OK)
+            return mtm_fail(error, status, "%s: field 'data file' names a file that cannot be used: %s",
+                            reader->header.path, reason.message);
     }
     if (status == MTM_OK) status = skip_lines(reader, part, error);
     if (status != MTM_OK) return status;
