@@ -134,7 +134,7 @@ static mtm_status find_object(const mtm_volume *volume, double threshold, double
 
 /* Looks at the middle of the object from as near as shows all eight corners of its box. */
 static void frame_object(const mtm_grid *grid, double extents[3][2], mtm_camera *camera) {
-    static const double margin = 0.92; /* objects seldom reach the corners of their box */
+    static const double margin = 1; /* a box-shaped object just fits */
     const double middle[3] = {(extents[0][0] + extents[0][1]) / 2, (extents[1][0] + extents[1][1]) / 2,
                               (extents[2][0] + extents[2][1]) / 2};
     camera->has_target = true;
@@ -172,6 +172,14 @@ mtm_status mtm_scene_for_volume(const mtm_volume *volume, const char *path, mtm_
                                 mtm_error *error) {
     mtm_scene *made = NULL;
     char sha256[65];
+    double smallest = 0;
+    double largest = 0;
+    mtm_volume_range(volume, &smallest, &largest);
+    if (!isfinite(largest - smallest))
+        return mtm_fail(error, MTM_LIMIT,
+                        "%s: its values, %g to %g, are too far apart for a default scene; write a scene with "
+                        "points of your own",
+                        path, smallest, largest);
     char *folder = mtm_path_folder(path);
     if (folder == NULL) return mtm_fail_memory(error, "a path", strlen(path));
     mtm_status status = mtm_scene_create(path, folder, &made, error);

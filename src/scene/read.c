@@ -90,9 +90,8 @@ static int read_material(mtm_scene_reader *reader, const json_t *object, const c
     if (!mtm_json_text(reader->json, object, key, &name)) return -1;
     const int material = mtm_palette_find_material(&reader->scene->palette, name);
     if (material < 0)
-        mtm_json_fail(reader->json, key,
-                      "is \"%.64s\", which is no material of the palette; the nearest is \"%s\"", name,
-                      mtm_palette_nearest_material(&reader->scene->palette, name));
+        mtm_json_fail_name(reader->json, key, name, "material",
+                           mtm_palette_nearest_material(&reader->scene->palette, name));
     return material;
 }
 
@@ -105,7 +104,7 @@ static void read_point(mtm_scene_reader *reader, const json_t *object, mtm_trans
         return;
     (void)mtm_json_number(json, object, "value", mtm_json_any, &point->value);
     (void)mtm_json_number(json, object, "opacity", mtm_json_unit, &point->opacity);
-    point->has_emission = mtm_json_number(json, object, "emission", mtm_json_not_negative, &point->emission);
+    point->has_emission = mtm_json_number(json, object, "emission", mtm_json_amount, &point->emission);
     point->material = read_material(reader, object, "material");
 }
 
@@ -116,7 +115,7 @@ static void read_points(mtm_scene_reader *reader, const json_t *transfer) {
     if (points == NULL) return;
     const size_t count = json_array_size(points);
     if (!json_is_array(points) || count < 1 || count > POINTS_MAX) {
-        mtm_json_fail(json, "points", "must be an array of 1 to %d points", POINTS_MAX);
+        mtm_json_fail(json, "points", "has %zu points, must be an array of 1 to %d", count, POINTS_MAX);
         return;
     }
     scene->points = mtm_allocate(count, sizeof *scene->points);
@@ -192,10 +191,10 @@ static void read_shading(mtm_scene_reader *reader, const json_t *document) {
     size_t place = 0;
     const json_t *object = mtm_scene_enter_object(json, document, "shading", KEYS(keys), &place);
     if (object != NULL) {
-        (void)mtm_json_number(json, object, "ambient", mtm_json_not_negative, &shading->ambient);
-        (void)mtm_json_number(json, object, "diffuse", mtm_json_not_negative, &shading->diffuse);
-        (void)mtm_json_number(json, object, "specular", mtm_json_not_negative, &shading->specular);
-        (void)mtm_json_number(json, object, "shininess", mtm_json_not_negative, &shading->shininess);
+        (void)mtm_json_number(json, object, "ambient", mtm_json_amount, &shading->ambient);
+        (void)mtm_json_number(json, object, "diffuse", mtm_json_amount, &shading->diffuse);
+        (void)mtm_json_number(json, object, "specular", mtm_json_amount, &shading->specular);
+        (void)mtm_json_number(json, object, "shininess", mtm_json_amount, &shading->shininess);
         (void)mtm_json_number(json, object, "gradient_threshold", mtm_json_not_negative,
                               &shading->gradient_threshold);
         static const char *const names[] = {"headlight"};

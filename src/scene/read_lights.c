@@ -29,8 +29,7 @@ static void read_weights(mtm_scene_reader *reader, const json_t *object, mtm_lig
     for (int i = 0; i < reader->scene->palette.light_count; i++) mix->weights[i] = 0;
     json_object_foreach((json_t *)weights, name, weight) {
         const int light = json->status == MTM_OK ? find_light(reader, name) : -1;
-        if (light >= 0)
-            (void)mtm_json_number(json, weights, name, mtm_json_not_negative, &mix->weights[light]);
+        if (light >= 0) (void)mtm_json_number(json, weights, name, mtm_json_amount, &mix->weights[light]);
     }
     mtm_json_leave(json, place);
 }
@@ -65,7 +64,7 @@ static void read_mix(mtm_scene_reader *reader, const json_t *object, mtm_light_m
     mtm_json_reader *json = reader->json;
     size_t place = 0;
     read_weights(reader, object, mix);
-    (void)mtm_json_number(json, object, "intensity", mtm_json_not_negative, &mix->intensity);
+    (void)mtm_json_number(json, object, "intensity", mtm_json_amount, &mix->intensity);
     const json_t *dial = mtm_scene_enter_object(json, object, "dial", KEYS(dial_keys), &place);
     if (dial != NULL) {
         mix->has_dot = mtm_json_numbers(json, dial, "dot", 2, mtm_json_any, mix->dot);

@@ -132,7 +132,7 @@ mtm_status mtm_transfer_create(int point_count, const mtm_transfer_point *points
     if (made == NULL) return mtm_fail_memory(error, "the transfer function", sizeof *made);
     const double width = points[point_count - 1].value - points[0].value;
     made->origin = points[0].value;
-    made->scale = width > 0 ? 1 / width : 1;
+    made->scale = width > 0 && isfinite(1 / width) ? 1 / width : 1;
     made->opacity_length = opacity_length;
     made->node_count = count_nodes(point_count, points);
     made->segment_count = point_count + 1;

@@ -110,6 +110,8 @@ BAD = [
     ("clip.box[0]", [0, 0], ["clip.box[0]", "3 numbers"]), ("clip.box[1]", 5, ["clip.box[1] is 5"]),
     ("clip.box[1]", [1, 1, 1.5], ["clip.box[1][2] is 1.5", "from 0 to 1"]),
     ("clip.box[0]", [1, 0, 0], ["clip.box", "axis 0"]),
+    ("transfer.points[0].emission", 1e7, ["emission is 1", "from 0 to 1e+06"]),
+    ("lights.intensity", 1e40, ["intensity", "1e+06"]),
     ("background", 5, ["background is 5", "object"]), ("background", {}, ["background", "srgb", "material"]),
     ("background.srgb", 5, ["background.srgb is 5"]), ("background.srgb", "blue", ["background.srgb", "blue"]),
     ("background.material", "haze", ["background", "either"]),
