@@ -75,6 +75,14 @@ bool next_argument(argument_walk *walk, const command_option **option, const cha
     return take_option(walk, text, option, value);
 }
 
+bool parse_amount(argument_walk *walk, const command_option *option, const char *value, double *result) {
+    static const double amount_max = 1e6; /* as in scene documents */
+    if (!parse_number(walk, option, value, result)) return false;
+    if (*result <= amount_max) return true;
+    fail_usage(walk, "%s is \"%s\", must be at most %.0f", option->name, value, amount_max);
+    return false;
+}
+
 bool parse_number(argument_walk *walk, const command_option *option, const char *value, double *result) {
     char *end = NULL;
     const double number = strtod(value, &end); /* this program never leaves the "C" locale */
@@ -103,8 +111,9 @@ bool parse_size(argument_walk *walk, const command_option *option, const char *v
     int end = 0;
     int w = 0;
     int h = 0;
-    if (sscanf(value, "%5dx%5d%n", &w, &h, &end) == 2 && value[end] == '\0' && w >= 1 && h >= 1 &&
-        w <= EDGE_MAX && h <= EDGE_MAX) {
+    const bool has_digits = strspn(value, "0123456789x") == strlen(value); /* no signs, no blanks */
+    if (has_digits && sscanf(value, "%5dx%5d%n", &w, &h, &end) == 2 && value[end] == '\0' && w >= 1 &&
+        h >= 1 && w <= EDGE_MAX && h <= EDGE_MAX) {
         *width = w;
         *height = h;
         return true;

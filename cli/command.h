@@ -50,6 +50,8 @@ bool parse_count(argument_walk *walk, const command_option *option, const char *
 bool parse_size(argument_walk *walk, const command_option *option, const char *value, int *width,
                 int *height);
 bool parse_number(argument_walk *walk, const command_option *option, const char *value, double *result);
+/* An amount of light, 0 … 10⁶. */
+bool parse_amount(argument_walk *walk, const command_option *option, const char *value, double *result);
 
 void print_help(const subcommand *command);
 

@@ -62,7 +62,9 @@ static int compare(const subcommand *command, const compare_request *request) {
     if (request->output != NULL) status = check_picture_output(request->output, false, &error);
     if (status == MTM_OK) status = open_picture(request->inputs[0], &pictures[0], &error);
     if (status == MTM_OK) status = open_picture(request->inputs[1], &pictures[1], &error);
-    if (status == MTM_OK) status = mtm_picture_compare(pictures[0], pictures[1], &comparison, &error);
+    if (status == MTM_OK)
+        status = name_failure(mtm_picture_compare(pictures[0], pictures[1], &comparison, &error),
+                              request->inputs[0], request->inputs[1], &error);
     if (status == MTM_OK && request->output != NULL) {
         status = mtm_picture_difference(pictures[0], pictures[1], 8, &difference, &error);
         if (status == MTM_OK) status = mtm_picture_write_png(difference, request->output, NULL, &error);
@@ -74,7 +76,7 @@ static int compare(const subcommand *command, const compare_request *request) {
     mtm_picture_destroy(pictures[1]);
     if (status != MTM_OK) return fail_command(command, &error);
     if (request->tolerance < 0 || comparison.max_error <= request->tolerance) return EXIT_DONE;
-    (void)fprintf(stderr, "metamer compare: the largest difference %.6f is above the tolerance %g\n",
+    (void)fprintf(stderr, "metamer compare: the largest difference %.9g is above the tolerance %g\n",
                   comparison.max_error, request->tolerance);
     return EXIT_FAILED;
 }

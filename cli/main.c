@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * metamer: the command line. Results go to standard output, messages and progress to standard error; exit status 0,
  * 1 (failed) or 2 (bad usage). */
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -43,6 +44,8 @@ static void print_version(void) {
 }
 
 int main(int argc, char **argv) {
+    /* A file that grows beyond the user's limit is then an error of writing, not the end of the program. */
+    (void)signal(SIGXFSZ, SIG_IGN);
     if (argc < 2) {
         print_overview(stderr);
         return EXIT_USAGE;

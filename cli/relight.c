@@ -22,20 +22,42 @@ static const command_option options[] = {
 
 enum { LIGHTS_MAX = 256 };
 
+typedef struct light_weight {
+    char name[MTM_NAME_MAX + 1];
+    double weight;
+} light_weight;
+
 typedef struct relight_request {
     const char *input, *output, *illuminant, *stop, *palette, *observer, *background;
-    const char *lights[LIGHTS_MAX]; /* NAME=WEIGHT */
+    light_weight lights[LIGHTS_MAX];
     int light_count, threads;
     double intensity; /* -1: as in the scene */
 } relight_request;
 
-static void add_light(argument_walk *walk, const char *value, relight_request *request) {
-    if (request->light_count == LIGHTS_MAX)
+/* NAME=WEIGHT, split at the last "=". */
+static void add_light(argument_walk *walk, const command_option *option, const char *value,
+                      relight_request *request) {
+    const char *equals = strrchr(value, '=');
+    light_weight *light = &request->lights[request->light_count];
+    if (request->light_count == LIGHTS_MAX) {
         fail_usage(walk, "more than %d times --light", LIGHTS_MAX);
-    else if (strrchr(value, '=') == NULL)
+        return;
+    }
+    if (equals == NULL || equals == value || equals - value > MTM_NAME_MAX) {
         fail_usage(walk, "--light is \"%s\", must be NAME=WEIGHT", value);
-    else
-        request->lights[request->light_count++] = value;
+        return;
+    }
+    (void)snprintf(light->name, sizeof light->name, "%.*s", (int)(equals - value), value);
+    if (parse_amount(walk, option, equals + 1, &light->weight)) request->light_count++;
+}
+
+/* A shell takes an unquoted # for a comment, so it may be left out here. */
+static void set_background(argument_walk *walk, const char *value, relight_request *request) {
+    const char *digits = value[0] == '#' ? value + 1 : value;
+    const bool is_color = strlen(digits) == 6 && strspn(digits, "0123456789abcdefABCDEF") == 6;
+    if (!is_color && strcmp(value, "none") != 0)
+        fail_usage(walk, "--background is \"%s\", must be six hexadecimal digits or none", value);
+    request->background = value;
 }
 
 static void read_option(argument_walk *walk, const command_option *option, const char *value,
@@ -47,7 +69,7 @@ static void read_option(argument_walk *walk, const command_option *option, const
     else if (is_option(option, "-o"))
         request->output = value;
     else if (is_option(option, "--light"))
-        add_light(walk, value, request);
+        add_light(walk, option, value, request);
     else if (is_option(option, "--illuminant"))
         request->illuminant = value;
     else if (is_option(option, "--stop"))
@@ -57,9 +79,9 @@ static void read_option(argument_walk *walk, const command_option *option, const
     else if (is_option(option, "--observer"))
         request->observer = value;
     else if (is_option(option, "--intensity"))
-        (void)parse_number(walk, option, value, &request->intensity);
+        (void)parse_amount(walk, option, value, &request->intensity);
     else if (is_option(option, "--background"))
-        request->background = value;
+        set_background(walk, value, request);
     else
         (void)parse_count(walk, option, value, &request->threads);
 }
@@ -87,67 +109,60 @@ static mtm_status take_illuminant(const char *name, mtm_scene *scene, mtm_error 
     return status == MTM_OK ? mtm_scene_use_light(scene, name, &light, error) : status;
 }
 
+static mtm_status take_stop(const char *name, mtm_scene *scene, mtm_error *error) {
+    return mtm_scene_use_stop(scene, name, error);
+}
+
+static mtm_status take_observer(const char *name, mtm_scene *scene, mtm_error *error) {
+    mtm_observer observer;
+    const mtm_status status = mtm_observer_get(name, &observer, error);
+    if (status == MTM_OK) (void)snprintf(scene->observer, sizeof scene->observer, "%s", name);
+    return status;
+}
+
 static mtm_status take_lights(const relight_request *request, mtm_scene *scene, mtm_error *error) {
     mtm_status status = MTM_OK;
     if (request->light_count > 0) mtm_scene_clear_weights(scene);
-    for (int i = 0; i < request->light_count && status == MTM_OK; i++) {
-        char *name = strdup(request->lights[i]);
-        char *equals = name == NULL ? NULL : strrchr(name, '=');
-        char *end = NULL;
-        if (equals == NULL) {
-            (void)snprintf(error->message, sizeof error->message, "out of memory");
-            free(name);
-            return MTM_MEMORY;
-        }
-        *equals = '\0';
-        const double weight = strtod(equals + 1, &end);
-        if (end == equals + 1 || *end != '\0' || !(weight >= 0 && weight <= 1e6)) {
-            (void)snprintf(error->message, sizeof error->message,
-                           "--light %s: weight \"%s\" must be a number from 0 to 1e6", name, equals + 1);
-            status = MTM_ARGUMENT;
-        } else {
-            status = mtm_scene_set_weight(scene, name, weight, error);
-        }
-        free(name);
-    }
+    for (int i = 0; i < request->light_count && status == MTM_OK; i++)
+        status = mtm_scene_set_weight(scene, request->lights[i].name, request->lights[i].weight, error);
     return status;
 }
 
 static mtm_status take_background(const char *background, mtm_scene *scene, mtm_error *error) {
-    mtm_rgb color;
     if (scene->background == MTM_BACKGROUND_MATERIAL) {
         (void)snprintf(error->message, sizeof error->message,
-                       "--background %s: the image has the material \"%s\" behind it already", background,
+                       "the image has the material \"%s\" behind it already",
                        scene->palette.materials[scene->background_material].name);
         return MTM_ARGUMENT;
     }
-    if (strcmp(background, "none") == 0) {
-        scene->background = MTM_BACKGROUND_NONE;
-        return MTM_OK;
-    }
-    /* A shell takes an unquoted # for a comment, so it may be left out here. */
-    char hex[80];
-    (void)snprintf(hex, sizeof hex, "%s%s", background[0] == '#' ? "" : "#", background);
-    const mtm_status status = mtm_rgb_parse(hex, &color, error);
-    if (status != MTM_OK) return status;
-    scene->background = MTM_BACKGROUND_COLOR;
-    (void)snprintf(scene->background_srgb, sizeof scene->background_srgb, "%.7s", hex);
+    const bool is_none = strcmp(background, "none") == 0;
+    scene->background = is_none ? MTM_BACKGROUND_NONE : MTM_BACKGROUND_COLOR;
+    if (!is_none)
+        (void)snprintf(scene->background_srgb, sizeof scene->background_srgb, "#%.6s",
+                       background + (background[0] == '#'));
     return MTM_OK;
 }
 
 /* Everything the options change is a change of the scene, so the picture can carry the scene it shows. */
 static mtm_status apply_request(const relight_request *request, mtm_scene *scene, mtm_error *error) {
+    const struct {
+        const char *option, *value;
+        mtm_status (*take)(const char *value, mtm_scene *scene, mtm_error *error);
+    } changes[] = {
+        {"--palette", request->palette, take_palette}, /* first: it may bring the lights that are named */
+        {"--stop", request->stop, take_stop},
+        {"--illuminant", request->illuminant, take_illuminant},
+        {"--background", request->background, take_background},
+        {"--observer", request->observer, take_observer},
+    };
     mtm_status status = MTM_OK;
-    if (request->palette != NULL) status = take_palette(request->palette, scene, error);
-    if (status == MTM_OK && request->stop != NULL) status = mtm_scene_use_stop(scene, request->stop, error);
-    if (status == MTM_OK) status = take_lights(request, scene, error);
-    if (status == MTM_OK && request->illuminant != NULL)
-        status = take_illuminant(request->illuminant, scene, error);
-    if (status == MTM_OK && request->background != NULL)
-        status = take_background(request->background, scene, error);
+    for (size_t i = 0; i < sizeof changes / sizeof *changes && status == MTM_OK; i++)
+        if (changes[i].value != NULL)
+            status = name_failure(changes[i].take(changes[i].value, scene, error), request->input,
+                                  changes[i].option, error);
+    if (status == MTM_OK)
+        status = name_failure(take_lights(request, scene, error), request->input, "--light", error);
     if (request->intensity >= 0) scene->lights.intensity = request->intensity;
-    if (request->observer != NULL)
-        (void)snprintf(scene->observer, sizeof scene->observer, "%s", request->observer);
     return status;
 }
 
@@ -160,7 +175,9 @@ static int relight(const subcommand *command, const relight_request *request) {
     if (status == MTM_OK) status = mtm_image_read(request->input, &image, &error);
     if (status == MTM_OK) status = mtm_scene_of_image(image, request->input, &scene, &error);
     if (status == MTM_OK) status = apply_request(request, scene, &error);
-    if (status == MTM_OK) status = mtm_scene_relight(scene, image, request->threads, &picture, &error);
+    if (status == MTM_OK)
+        status = name_failure(mtm_scene_relight(scene, image, request->threads, &picture, &error),
+                              request->input, NULL, &error);
     if (status == MTM_OK) status = write_picture(picture, scene, request->output, &error);
     mtm_picture_destroy(picture);
     mtm_scene_destroy(scene);

@@ -85,6 +85,19 @@ static mtm_status write_result(const render_request *request, const mtm_scene *s
     return status;
 }
 
+/* The volume is the box from the first to the last voxel center, and such a box is empty. */
+static void note_flat_volume(const subcommand *command, const mtm_volume *volume) {
+    const mtm_grid *grid = mtm_volume_grid(volume);
+    for (int axis = 0; axis < 3; axis++)
+        if (grid->size[axis] == 1) {
+            (void)fprintf(stderr,
+                          "metamer %s: note: the volume is one voxel thick along axis %d, so there is "
+                          "nothing to see between its voxel centers\n",
+                          command->name, axis);
+            return;
+        }
+}
+
 static int render(const subcommand *command, const render_request *request) {
     mtm_error error = {""};
     mtm_scene *scene = NULL;
@@ -94,10 +107,12 @@ static int render(const subcommand *command, const render_request *request) {
     mtm_status status = check_picture_output(request->output, true, &error);
     if (status == MTM_OK) status = open_scene(request->input, request->volume, &scene, &volume, &error);
     if (status == MTM_OK) {
+        note_flat_volume(command, volume);
         apply_request(request, scene);
         const mtm_progress progress = start_progress(&bar, "rendering");
         status = mtm_scene_render(scene, volume, &progress, &image, &error);
         end_progress(&bar);
+        status = name_failure(status, request->input, NULL, &error);
     }
     if (status == MTM_OK) status = write_result(request, scene, image, &error);
     mtm_image_destroy(image);
@@ -122,7 +137,7 @@ static int run(const subcommand *command, int argc, char **argv) {
 
 const subcommand render_command = {
     .name = "render",
-    .arguments = "SCENE.json|VOLUME|PICTURE.png -o IMAGE.exr|PICTURE.png [options]",
+    .arguments = "SCENE.json|VOLUME|PICTURE.png|IMAGE.exr -o IMAGE.exr|PICTURE.png [options]",
     .summary =
         "Project a volume once, without light, into a spectral image, or straight into a picture.\n"
         "A volume alone gets a default scene; a picture made by metamer is rendered again from the scene it\n"

@@ -16,6 +16,15 @@ int fail_command(const subcommand *command, const mtm_error *error) {
     return EXIT_FAILED;
 }
 
+mtm_status name_failure(mtm_status status, const char *path, const char *option, mtm_error *error) {
+    if (status == MTM_OK || strncmp(error->message, path, strlen(path)) == 0) return status;
+    const mtm_error reason = *error;
+    const char *colon = option == NULL ? "" : ": ";
+    (void)snprintf(error->message, sizeof error->message, "%.400s: %s%s%.500s", path,
+                   option == NULL ? "" : option, colon, reason.message);
+    return status;
+}
+
 static bool show_progress(void *user, double fraction) {
     enum { WIDTH = 40 };
     progress_bar *bar = user;
@@ -45,7 +54,14 @@ bool has_extension(const char *path, const char *extension) {
     return length > extension_length && strcasecmp(path + length - extension_length, extension) == 0;
 }
 
+/* Neither a file nor a folder, but something to write into: a device, a pipe. */
+static bool is_device(const char *path) {
+    struct stat state;
+    return stat(path, &state) == 0 && !S_ISREG(state.st_mode) && !S_ISDIR(state.st_mode);
+}
+
 file_kind kind_of_file(const char *path) {
+    if (is_device(path)) return FILE_OTHER; /* what is read to look at it would be gone */
     FILE *stream = fopen(path, "rb");
     if (stream == NULL) return FILE_UNREADABLE;
     int first = fgetc(stream);
@@ -108,12 +124,6 @@ mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **sce
         return status == MTM_OK ? mtm_scene_for_volume(*volume, path, scene, error) : status;
     }
     return status == MTM_OK ? mtm_scene_load_volume(*scene, volume_path, volume, error) : status;
-}
-
-/* Neither a file nor a folder, but something to write into: a device, a pipe. */
-static bool is_device(const char *path) {
-    struct stat state;
-    return stat(path, &state) == 0 && !S_ISREG(state.st_mode) && !S_ISDIR(state.st_mode);
 }
 
 mtm_status check_output(const char *path, mtm_error *error) {

@@ -9,6 +9,10 @@
 /* Prints "metamer NAME: message" and returns EXIT_FAILED. */
 int fail_command(const subcommand *command, const mtm_error *error);
 
+/* Puts the file, and the option where not NULL, before a message that does not begin with the file already. Returns the
+ * status; does nothing for MTM_OK. */
+mtm_status name_failure(mtm_status status, const char *path, const char *option, mtm_error *error);
+
 /* A progress bar on standard error where that is a terminal, else silence. `label` is shown before it. */
 typedef struct progress_bar {
     const char *label;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files that are missing, broken or cannot be written, and runs that are ended: one sentence, exit status 1, and
 nothing left behind."""
+import json
 import os
 import resource
 import signal
@@ -102,6 +103,34 @@ class BadInput(support.CliTest):
             self.refuse("info", "b.exr", texts=["b.exr"])
 
 
+class Pipe(support.CliTest):
+    def test_inputs_that_are_pipes_are_refused_at_once(self):
+        os.mkfifo(self.path("pipe"))
+        os.mkfifo(self.path("pipe.json"))
+        for name in ("pipe", "pipe.json"):
+            self.refuse("info", name, texts=[name, "pipe"])
+            self.refuse("render", name, "-o", "out.png", texts=[name, "pipe"])
+
+
+class Input(support.CliTest):
+    def test_a_detached_volume_without_its_data(self):
+        for data in ("gone.raw", "."):
+            self.write_text("head.nhdr", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+                                         f"data file: {data}\n")
+            self.refuse("info", "head.nhdr", texts=["head.nhdr", "data file", data])
+
+    def test_values_too_far_apart_for_a_default_scene(self):
+        support.write_nrrd(self.path("far.nrrd"), (2, 2, 2), [-1.7e308, 1.7e308] * 4, "double")
+        self.refuse("render", "far.nrrd", "-o", "out.png", texts=["far.nrrd", "1.7e+308"])
+
+    def test_an_utf8_mark_before_a_scene_is_passed_over(self):
+        text = "\ufeff" + json.dumps(support.make_scene())
+        with open(self.path("marked.json"), "w", encoding="utf-8") as stream:
+            stream.write(text)
+        support.write_nrrd(self.path("blob.nrrd"))
+        self.succeed("render", "marked.json", "-o", "out.png")
+
+
 class Output(support.CliTest):
     def setUp(self):
         super().setUp()
@@ -151,6 +180,25 @@ class Output(support.CliTest):
         self.check_nobody()
         os.mkdir(self.path("locked"), 0o555)
         self.refuse_all("locked/out.{}", ["denied"], **as_nobody())
+
+    def test_a_file_its_owner_has_locked(self):
+        self.check_nobody()
+        for extension in ("png", "exr", "nrrd"):
+            self.write_text(f"kept.{extension}", "old")
+            os.chmod(self.path(f"kept.{extension}"), 0o444)
+        os.chmod(self.folder, 0o777)
+        for words, extension in self.commands:
+            if extension != "nhdr":
+                self.refuse(*words, "-o", f"kept.{extension}", texts=["kept", "denied"], **as_nobody())
+
+    def test_a_file_size_limit_that_ends_programs(self):
+        for words, extension in self.commands:
+            line = f"ulimit -f 0; exec '{support.METAMER}' {' '.join(words)} -o limited.{extension}"
+            before = self.listing()
+            result = subprocess.run(["sh", "-c", line], cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn("limited", result.stderr)
+            self.assertEqual(self.listing(), before)
 
     def test_a_full_device(self):
         before = os.stat("/dev/full")

@@ -175,21 +175,34 @@ class Relight(support.CliTest):
         self.refuse("relight", "image.exr", "-o", "no.png", "--stop", "morning", texts=["morning", "evening"])
         self.refuse("relight", "image.exr", "-o", "no.png", "--observer", "cie1932", texts=["cie1932", "cie1931"])
 
+    def test_bad_words_are_bad_usage(self):
+        for options, texts in (
+                (("--light", "lamp=-1"), ["--light", "-1"]), (("--light", "lamp=x"), ["--light", "x"]),
+                (("--light", "lamp="), ["--light"]), (("--light", "lamp=nan"), ["--light", "nan"]),
+                (("--light", "lamp=inf"), ["--light", "inf"]), (("--light", "lamp=1e7"), ["--light", "1e7", "1000000"]),
+                (("--light", "=1"), ["--light", "=1"]), (("--light", "lamp"), ["lamp", "NAME=WEIGHT"]),
+                (("--intensity", "-1"), ["--intensity", "-1"]),
+                (("--background", "red"), ["--background", "red"]), (("--background", "#12345"), ["#12345"]),
+                (("--background", "20304g"), ["20304g"])):
+            self.refuse("relight", "image.exr", "-o", "no.png", *options, texts=texts, status=2)
+
     def test_bad_requests_are_named(self):
         for options, texts in (
-                (("--light", "lamp=-1"), ["lamp", "-1"]), (("--light", "lamp=x"), ["lamp", "x"]),
-                (("--light", "lamp="), ["lamp"]), (("--light", "lamp=nan"), ["lamp", "nan"]),
-                (("--light", "lamp=inf"), ["lamp", "inf"]), (("--light", "=1"), ["light"]),
+                (("--light", "lamb=1"), ["--light", "lamb"]), (("--stop", "noon"), ["--stop", "noon"]),
+                (("--illuminant", "D66"), ["--illuminant", "D66", "D65"]),
+                (("--observer", "cie1964"), ["--observer", "cie1964"]),
                 (("--illuminant", "lamps.csv:none"), ["lamps.csv", "none", "line"]),
                 (("--illuminant", "missing.csv:green"), ["missing.csv"]),
-                (("--background", "red"), ["red"]), (("--background", "#12345"), ["#12345"]),
-                (("--background", "20304g"), ["20304g"]),
                 (("--palette", "missing.json"), ["missing.json"]),
                 (("--palette", "lamps.csv"), ["lamps.csv"])):
             self.write_text("lamps.csv", CSV)
-            self.refuse("relight", "image.exr", "-o", "no.png", *options, texts=texts)
+            self.refuse("relight", "image.exr", "-o", "no.png", *options, texts=["image.exr", *texts])
         self.refuse("relight", "missing.exr", "-o", "no.png", texts=["missing.exr"])
         self.refuse("relight", "blob.nrrd", "-o", "no.png", texts=["blob.nrrd"])
+
+    def test_a_new_light_of_the_palette_can_be_named(self):
+        self.write_json("new.json", {"lights": [{"name": "blue", "srgb": "#4060ff"}]})
+        self.succeed("relight", "image.exr", "-o", "blue.png", "--palette", "new.json", "--light", "blue=1")
 
     def test_a_palette_that_knows_nothing_of_the_image_is_refused(self):
         self.write_json("other.json", {"materials": [{"name": "wood", "srgb": "#806040"}]})
