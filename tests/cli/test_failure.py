@@ -192,8 +192,9 @@ class Output(support.CliTest):
                 self.refuse(*words, "-o", f"kept.{extension}", texts=["kept", "denied"], **as_nobody())
 
     def test_a_file_size_limit_that_ends_programs(self):
-        for words, extension in self.commands:
-            line = f"ulimit -f 0; exec '{support.METAMER}' {' '.join(words)} -o limited.{extension}"
+        for extension in ("exr", "png"):
+            # 8 blocks of 512 bytes: room for what a sanitizer writes when a program starts, not for a picture.
+            line = f"ulimit -f 8; exec '{support.METAMER}' render scene.json --size 200x150 -o limited.{extension}"
             before = self.listing()
             result = subprocess.run(["sh", "-c", line], cwd=self.folder, capture_output=True, text=True, check=False)
             self.assertEqual(result.returncode, 1, result.stderr)
