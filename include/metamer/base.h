@@ -37,8 +37,8 @@ typedef struct mtm_error {
     char message[1024];
 } mtm_error;
 
-/* Called now and then from the thread that started the work with the fraction done (0..1, rising).
- * Returning false stops the work, which then returns MTM_CANCELLED. */
+/* Called now and then from the thread that started the work with the fraction begun (0..1, rising; 1 need not be
+ * reported). Returning false lets no further part begin, and the work then returns MTM_CANCELLED. */
 typedef bool (*mtm_progress_function)(void *user, double fraction);
 
 typedef struct mtm_progress {
@@ -49,7 +49,8 @@ typedef struct mtm_progress {
 /* The version of the library, "major.minor.patch". */
 MTM_API const char *mtm_version(void);
 
-/* Number of threads used where an option says 0: the processors this process may run on, at least 1. */
+/* Number of threads used where an option says 0: the processors this process may run on, at least 1. No option gives
+ * more than 256. */
 MTM_API int mtm_default_thread_count(void);
 
 /* Frees text that the library returned as `char *`. NULL is allowed. */

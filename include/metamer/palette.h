@@ -65,7 +65,8 @@ MTM_API const char *mtm_palette_nearest_light(const mtm_palette *palette, const 
 MTM_API mtm_spectrum mtm_palette_mix(const mtm_palette *palette, const double *weights, double intensity);
 
 /* Takes the reflectances of materials and the lights of `other` that have the same name, and adds its other lights.
- * MTM_ARGUMENT where the two have no name in common. */
+ * MTM_ARGUMENT where nothing is taken: no material in common and no light at all; MTM_LIMIT beyond MTM_LIGHTS_MAX
+ * lights of both together; MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_palette_override(mtm_palette *palette, const mtm_palette *other,
                                                   mtm_error *error);
 

@@ -41,7 +41,12 @@ static void append_scalar(json_text *text, const json_t *value) {
         return;
     }
     char *scalar = json_dumps(value, JSON_ENCODE_ANY);
-    append(text, scalar == NULL ? "null" : scalar);
+    if (scalar == NULL) { /* out of memory: no text is better than one that says something else */
+        free(text->bytes);
+        text->bytes = NULL;
+        return;
+    }
+    append(text, scalar);
     free(scalar);
 }
 

@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "basis/kind.h"
 
-enum { MATERIALS_MAX = 82 /* so that materials, white and alpha fill 84 lanes */ };
+enum { MATERIALS_MAX = MTM_DIMENSION_MAX - 1 /* white is the last column */ };
 
 static const mtm_basis_kind *const kinds[] = {&mtm_basis_materials, &mtm_basis_wavelengths, &mtm_basis_rgb};
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };

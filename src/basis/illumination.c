@@ -2,12 +2,8 @@
  * The step from a reflectance under a light to linear sRGB, in full spectra (paper eq. 1). */
 #include <string.h>
 
+#include "base/linear.h"
 #include "metamer/basis.h"
-
-static void multiply_3x3(const double a[3][3], const double b[3][3], double product[3][3]) {
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) product[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-}
 
 mtm_illumination mtm_illumination_of(const mtm_spectrum *light, const mtm_observer *observer,
                                      bool is_adapted) {
@@ -19,11 +15,12 @@ mtm_illumination mtm_illumination_of(const mtm_spectrum *light, const mtm_observ
     /* The adaptation keeps the light's intensity: only its chromaticity becomes that of D65. */
     const mtm_xyz d65 = mtm_white_d65();
     const mtm_xyz target = {d65.x * white.y, d65.y * white.y, d65.z * white.y};
-    double adaptation[3][3];
-    double to_rgb[3][3];
-    mtm_bradford(white, target, adaptation);
-    memcpy(to_rgb, illumination.rgb_from_xyz, sizeof to_rgb);
-    multiply_3x3((const double(*)[3])to_rgb, (const double(*)[3])adaptation, illumination.rgb_from_xyz);
+    mtm_matrix3 adaptation;
+    mtm_matrix3 to_rgb;
+    mtm_bradford(white, target, adaptation.m);
+    memcpy(to_rgb.m, illumination.rgb_from_xyz, sizeof to_rgb.m);
+    to_rgb = mtm_matrix3_multiply(to_rgb, adaptation);
+    memcpy(illumination.rgb_from_xyz, to_rgb.m, sizeof to_rgb.m);
     return illumination;
 }
 

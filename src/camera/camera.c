@@ -28,8 +28,10 @@ static void cross(const double a[3], const double b[3], double product[3]) {
 /* The first and third axis of the frame: x and z turned by the shortest rotation that takes y to the unit vector
  * `up` (Rodrigues' formula; half a turn about x where up is -y). */
 static void frame_axes(const double up[3], double first[3], double third[3]) {
-    const bool is_upside_down = up[1] < -1 + 1e-12;
-    const double factor = is_upside_down ? 0 : 1 / (1 + up[1]);
+    /* 1/(1 + y) = (1 - y)/(x² + z²) for a unit vector, without cancellation where y is near -1. */
+    const double off_axis = up[0] * up[0] + up[2] * up[2];
+    const bool is_upside_down = up[1] < 0 && off_axis == 0;
+    const double factor = is_upside_down ? 0 : up[1] < 0 ? (1 - up[1]) / off_axis : 1 / (1 + up[1]);
     first[0] = 1 - up[0] * up[0] * factor;
     first[1] = is_upside_down ? 0 : -up[0];
     first[2] = -up[0] * up[2] * factor;

@@ -2,7 +2,6 @@
  * Palettes as JSON: every way to name a spectrum is a row of one table. */
 #include "palette/json.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,23 +20,30 @@ typedef struct spectrum_request {
     mtm_spectrum_kind kind;
 } spectrum_request;
 
-static void fail_with(const spectrum_request *request, const mtm_error *reason) {
+/* Fails at the key with the status of what went wrong behind it. */
+static void fail_with(const spectrum_request *request, mtm_status status, const mtm_error *reason) {
     mtm_json_fail(request->reader, request->key, "is not usable: %s", reason->message);
+    if (status != MTM_ARGUMENT) request->reader->status = status; /* a bad name is a fault of the document */
 }
 
 static void from_file(const spectrum_request *request, mtm_spectrum *spectrum) {
     const char *file = NULL;
     mtm_error reason;
     if (!mtm_json_text(request->reader, request->object, request->key, &file)) return;
-    if (mtm_spectrum_read(request->folder, file, request->kind, spectrum, &reason) != MTM_OK)
-        fail_with(request, &reason);
+    if (request->folder == NULL) {
+        mtm_json_fail(request->reader, request->key, "names a file, but an embedded document stands alone");
+        return;
+    }
+    const mtm_status status = mtm_spectrum_read(request->folder, file, request->kind, spectrum, &reason);
+    if (status != MTM_OK) fail_with(request, status, &reason);
 }
 
 static void from_illuminant(const spectrum_request *request, mtm_spectrum *spectrum) {
     const char *name = NULL;
     mtm_error reason;
     if (!mtm_json_text(request->reader, request->object, request->key, &name)) return;
-    if (mtm_illuminant(name, spectrum, &reason) != MTM_OK) fail_with(request, &reason);
+    const mtm_status status = mtm_illuminant(name, spectrum, &reason);
+    if (status != MTM_OK) fail_with(request, status, &reason);
 }
 
 static void from_temperature(const spectrum_request *request, mtm_spectrum *spectrum) {
@@ -47,7 +53,7 @@ static void from_temperature(const spectrum_request *request, mtm_spectrum *spec
     const bool is_daylight = strcmp(request->key, "daylight") == 0;
     const mtm_status status =
         is_daylight ? mtm_daylight(kelvin, spectrum, &reason) : mtm_blackbody(kelvin, spectrum, &reason);
-    if (status != MTM_OK) fail_with(request, &reason);
+    if (status != MTM_OK) fail_with(request, status, &reason);
 }
 
 /* A material gets the smoothest reflectance of the color; a light gets daylight D65 through that filter, which
@@ -64,7 +70,7 @@ static void from_color(const spectrum_request *request, mtm_spectrum *spectrum) 
         status = mtm_illuminant("D65", &daylight, &reason);
         if (status == MTM_OK) *spectrum = mtm_spectrum_multiply(&daylight, spectrum);
     }
-    if (status != MTM_OK) fail_with(request, &reason);
+    if (status != MTM_OK) fail_with(request, status, &reason);
 }
 
 static void from_values(const spectrum_request *request, mtm_spectrum *spectrum) {
@@ -128,6 +134,16 @@ static void read_name(mtm_json_reader *reader, const json_t *object, char name[M
         (void)snprintf(name, MTM_NAME_MAX + 1, "%s", text);
 }
 
+/* Artificial reflectances may leave 0..1, but not what a float pixel can hold. */
+static void check_reflectance(mtm_json_reader *reader, const mtm_spectrum *reflectance) {
+    static const double largest = 1e6;
+    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
+        if (!(fabs(reflectance->value[i]) <= largest))
+            mtm_json_fail(reader, NULL, "has a reflectance of %g at %d nm, at most %g either way is allowed",
+                          reflectance->value[i], MTM_WAVELENGTH_FIRST_NM + i * MTM_WAVELENGTH_STEP_NM,
+                          largest);
+}
+
 static void read_material(mtm_json_reader *reader, const json_t *object, const char *folder,
                           mtm_palette *palette) {
     static const char *const keys[] = {"name",       "spectrum",  "srgb",    "values",
@@ -136,6 +152,7 @@ static void read_material(mtm_json_reader *reader, const json_t *object, const c
     if (!mtm_json_expect_object(reader, object, keys, sizeof keys / sizeof *keys)) return;
     read_name(reader, object, material.name);
     read_spectrum(reader, object, folder, MTM_KIND_REFLECTANCE, &material.reflectance);
+    check_reflectance(reader, &material.reflectance);
     if (reader->status != MTM_OK) return;
     if (mtm_palette_find_material(palette, material.name) >= 0)
         mtm_json_fail(reader, "name", "\"%s\" is the name of an earlier material, too", material.name);

@@ -2,7 +2,6 @@
  * Materials and lights. */
 #include "metamer/palette.h"
 
-#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +9,9 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "base/nearest.h"
+#include "metamer/basis.h"
+
+_Static_assert(MTM_MATERIALS_MAX + 1 == MTM_DIMENSION_MAX, "a palette and white fill the largest basis");
 
 void mtm_palette_free(mtm_palette *palette) {
     free(palette->materials);
@@ -118,21 +120,24 @@ static int take_reflectances(mtm_palette *palette, const mtm_palette *other) {
 mtm_status mtm_palette_override(mtm_palette *palette, const mtm_palette *other, mtm_error *error) {
     mtm_palette result;
     const int light_limit = palette->light_count + other->light_count;
+    if (light_limit > MTM_LIGHTS_MAX)
+        return mtm_fail(error, MTM_LIMIT, "%d lights are more than the %d a palette can hold", light_limit,
+                        MTM_LIGHTS_MAX);
     mtm_status status = allocate(palette->material_count, light_limit, &result, error);
     if (status != MTM_OK) return status;
     memcpy(result.materials, palette->materials, (size_t)palette->material_count * sizeof *result.materials);
     memcpy(result.lights, palette->lights, (size_t)palette->light_count * sizeof *result.lights);
     result.light_count = palette->light_count;
 
-    int taken = take_reflectances(&result, other);
+    const int taken = take_reflectances(&result, other);
     for (int i = 0; i < other->light_count; i++) {
         const int match = mtm_palette_find_light(&result, other->lights[i].name);
-        if (match >= 0) taken++;
         result.lights[match >= 0 ? match : result.light_count++] = other->lights[i];
     }
     if (taken == 0 && other->light_count == 0) {
         mtm_palette_free(&result);
-        return mtm_fail(error, MTM_ARGUMENT, "the new palette has no material or light that the image knows");
+        return mtm_fail(error, MTM_ARGUMENT,
+                        "the new palette has no material that the old one knows, and no light");
     }
     mtm_palette_free(palette);
     *palette = result;

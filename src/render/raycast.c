@@ -77,9 +77,10 @@ static void free_blocks(mtm_raycast *raycast) {
 }
 
 static mtm_status check_step(const mtm_raycast *raycast, const mtm_grid *grid, mtm_error *error) {
-    double diagonal = 0;
-    for (int axis = 0; axis < 3; axis++) diagonal += (grid->size[axis] - 1) * mtm_grid_spacing(grid, axis);
-    if (diagonal / raycast->step <= samples_max) return MTM_OK;
+    double longest_ray_bound = 0;
+    for (int axis = 0; axis < 3; axis++)
+        longest_ray_bound += (grid->size[axis] - 1) * mtm_grid_spacing(grid, axis);
+    if (longest_ray_bound / raycast->step <= samples_max) return MTM_OK;
     return mtm_fail(error, MTM_LIMIT, "step %g needs more than %g samples along a ray", raycast->options.step,
                     samples_max);
 }

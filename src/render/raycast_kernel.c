@@ -64,7 +64,7 @@ static bool intersect(const ray_span *ray, const double low[3], const double hig
     }
     *enter = first;
     *leave = last;
-    return first < last;
+    return first < last && isfinite(first) && isfinite(last);
 }
 
 static bool aim(const mtm_raycast *raycast, int x, int y, ray_span *ray) {

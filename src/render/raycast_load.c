@@ -26,8 +26,8 @@ ALWAYS_INLINE double stored_value(const mtm_raycast *raycast, mtm_voxel_type typ
 ALWAYS_INLINE float voxel_position(const mtm_raycast *raycast, mtm_voxel_type type, size_t offset) {
     const double value = raycast->slope * stored_value(raycast, type, offset) + raycast->intercept;
     const float position = mtm_transfer_position(raycast->transfer, value);
-    if (type < MTM_VOXEL_FLOAT32) return position;
-    return isfinite(value) ? fminf(fmaxf(position, -1e30f), 1e30f) : raycast->lowest_position;
+    const float usable = fminf(fmaxf(position, -1e30f), 1e30f);
+    return type < MTM_VOXEL_FLOAT32 || isfinite(value) ? usable : raycast->lowest_position;
 }
 
 ALWAYS_INLINE size_t cell_offset(const mtm_raycast *raycast, const int cell[3]) {

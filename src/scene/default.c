@@ -132,7 +132,7 @@ static mtm_status find_object(const mtm_volume *volume, double threshold, double
     return is_complete ? MTM_OK : mtm_fail_memory(error, "the scene", (size_t)grid->size[0] * sizeof *values);
 }
 
-/* Looks at the middle of the object from as near as shows all eight corners of its box. */
+/* Looks at the middle of the object from as near as shows all eight corners of its box in a square or wider picture. */
 static void frame_object(const mtm_grid *grid, double extents[3][2], mtm_camera *camera) {
     static const double margin = 1; /* a box-shaped object just fits */
     const double middle[3] = {(extents[0][0] + extents[0][1]) / 2, (extents[1][0] + extents[1][1]) / 2,

@@ -76,13 +76,12 @@ static json_t *format_background(const mtm_scene *scene) {
 }
 
 static json_t *format_render(const mtm_scene *scene) {
-    static const char *const blends[] = {"composite", "sum", "maximum"};
     json_t *object = json_object();
     set(object, "renderer", json_string(scene->renderer));
     set(object, "basis", json_string(scene->basis));
     set(object, "size", json_pack("[i, i]", scene->render.width, scene->render.height));
     set(object, "step", json_real(scene->render.step));
-    set(object, "blend", json_string(blends[scene->render.blend]));
+    set(object, "blend", json_string(mtm_blend_names[scene->render.blend]));
     set(object, "jitter", json_boolean(scene->render.jitter));
     set(object, "termination", json_real(scene->render.termination));
     return object;

@@ -106,14 +106,14 @@ static mtm_status make_plain_scene(const char *path, mtm_scene **scene, mtm_erro
 
 mtm_status mtm_scene_of_image(const mtm_image *image, const char *path, mtm_scene **scene, mtm_error *error) {
     if (image->scene == NULL) return make_plain_scene(path, scene, error);
-    return mtm_scene_parse(path, image->scene, ".", scene, error);
+    return mtm_scene_parse(path, image->scene, NULL, scene, error);
 }
 
 /* The reflectances of a finished image are in its coefficients, unless its basis is the materials. */
 static mtm_status check_reflectances(const mtm_scene *scene, const mtm_image *image, mtm_error *error) {
     mtm_palette rendered;
     if (strcmp(image->basis, "materials") == 0 || image->palette == NULL) return MTM_OK;
-    mtm_status status = mtm_palette_parse("metamer.palette", image->palette, ".", &rendered, error);
+    mtm_status status = mtm_palette_parse("metamer.palette", image->palette, NULL, &rendered, error);
     for (int i = 0; status == MTM_OK && i < rendered.material_count; i++) {
         const int match = mtm_palette_find_material(&scene->palette, rendered.materials[i].name);
         const mtm_spectrum *before = &rendered.materials[i].reflectance;
@@ -136,9 +136,10 @@ static mtm_status make_matrix(const mtm_scene *scene, const mtm_image *image, do
     mtm_scene *rendered = NULL; /* "rgb" knows only the light it was rendered under */
     mtm_status status = check_reflectances(scene, image, error);
     if (status == MTM_OK) status = mtm_scene_illumination(scene, &illumination, error);
-    if (status == MTM_OK) status = mtm_scene_of_image(image, scene->document, &rendered, error);
+    if (status == MTM_OK && strcmp(image->basis, "rgb") == 0)
+        status = mtm_scene_of_image(image, scene->document, &rendered, error);
     if (status == MTM_OK)
-        status = make_basis(strcmp(image->basis, "rgb") == 0 ? rendered : scene, image->basis, &basis, error);
+        status = make_basis(rendered != NULL ? rendered : scene, image->basis, &basis, error);
     if (status == MTM_OK && mtm_basis_dimension(basis) != image->dimension)
         status = mtm_fail(error, MTM_FORMAT, "%s: has %d coefficients, its palette in basis \"%s\" needs %d",
                           scene->document, image->dimension, image->basis, mtm_basis_dimension(basis));

@@ -53,13 +53,20 @@ static void read_volume(mtm_scene_reader *reader, const json_t *document) {
 
 static void read_palette_file(mtm_scene_reader *reader, const char *file) {
     mtm_error reason;
+    if (reader->is_embedded) {
+        mtm_json_fail(reader->json, "file", "names a file, but an embedded document stands alone");
+        return;
+    }
     char *path = mtm_path_join(reader->scene->folder, file);
     if (path == NULL) {
         reader->json->status = mtm_fail_memory(reader->json->error, "the scene", strlen(file));
         return;
     }
-    if (mtm_palette_read(path, &reader->scene->palette, &reason) != MTM_OK)
+    const mtm_status status = mtm_palette_read(path, &reader->scene->palette, &reason);
+    if (status != MTM_OK) {
         mtm_json_fail(reader->json, "file", "is not usable: %s", reason.message);
+        reader->json->status = status;
+    }
     free(path);
 }
 
@@ -70,7 +77,8 @@ static void read_palette(mtm_scene_reader *reader, const json_t *document) {
     size_t place = 0;
     const json_t *object = mtm_scene_enter_object(json, document, "palette", KEYS(keys), &place);
     if (object != NULL && json_object_get(object, "file") == NULL)
-        mtm_palette_from_json(json, object, reader->scene->folder, &reader->scene->palette);
+        mtm_palette_from_json(json, object, reader->is_embedded ? NULL : reader->scene->folder,
+                              &reader->scene->palette);
     else if (object != NULL && json_object_size(object) > 1)
         mtm_json_fail(json, "file",
                       "stands beside inline materials or lights; a palette is one or the other");
@@ -95,6 +103,9 @@ static int read_material(mtm_scene_reader *reader, const json_t *object, const c
     return material;
 }
 
+/* Any voxel type's values; differences stay finite. */
+static const mtm_json_range value_range = {-1e300, 1e300};
+
 static void read_point(mtm_scene_reader *reader, const json_t *object, mtm_transfer_point *point) {
     static const char *const keys[] = {"value", "opacity", "emission", "material"};
     mtm_json_reader *json = reader->json;
@@ -102,7 +113,7 @@ static void read_point(mtm_scene_reader *reader, const json_t *object, mtm_trans
     if (mtm_json_required(json, object, "value") == NULL ||
         mtm_json_required(json, object, "opacity") == NULL)
         return;
-    (void)mtm_json_number(json, object, "value", mtm_json_any, &point->value);
+    (void)mtm_json_number(json, object, "value", value_range, &point->value);
     (void)mtm_json_number(json, object, "opacity", mtm_json_unit, &point->opacity);
     point->has_emission = mtm_json_number(json, object, "emission", mtm_json_amount, &point->emission);
     point->material = read_material(reader, object, "material");
@@ -136,7 +147,9 @@ static void read_points(mtm_scene_reader *reader, const json_t *transfer) {
     mtm_json_leave(json, place);
 }
 
-static const mtm_json_range positive = {1e-300, HUGE_VAL};
+/* Lengths and places in world units, far from where their squares leave what numbers hold. */
+static const mtm_json_range length_range = {1e-30, 1e30};
+static const mtm_json_range place_range = {-1e30, 1e30};
 
 static void read_transfer(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"opacity_length", "points"};
@@ -145,7 +158,7 @@ static void read_transfer(mtm_scene_reader *reader, const json_t *document) {
     if (mtm_json_required(json, document, "transfer") == NULL) return;
     const json_t *object = mtm_scene_enter_object(json, document, "transfer", KEYS(keys), &place);
     if (object != NULL) {
-        (void)mtm_json_number(json, object, "opacity_length", positive, &reader->scene->opacity_length);
+        (void)mtm_json_number(json, object, "opacity_length", length_range, &reader->scene->opacity_length);
         read_points(reader, object);
     }
     mtm_json_leave(json, place);
@@ -174,11 +187,11 @@ static void read_camera(mtm_scene_reader *reader, const json_t *document) {
     if (object != NULL) {
         (void)mtm_json_number(json, object, "azimuth", mtm_json_any, &camera->azimuth);
         (void)mtm_json_number(json, object, "elevation", mtm_json_any, &camera->elevation);
-        (void)mtm_json_number(json, object, "distance", positive, &camera->distance);
-        camera->has_target = mtm_json_numbers(json, object, "target", 3, mtm_json_any, camera->target);
+        (void)mtm_json_number(json, object, "distance", length_range, &camera->distance);
+        camera->has_target = mtm_json_numbers(json, object, "target", 3, place_range, camera->target);
         (void)read_direction(json, object, "up", camera->up);
         (void)mtm_json_number(json, object, "fov", (mtm_json_range){0, 175}, &camera->fov);
-        (void)mtm_json_number(json, object, "height", mtm_json_not_negative, &camera->height);
+        (void)mtm_json_number(json, object, "height", (mtm_json_range){0, 1e30}, &camera->height);
     }
     mtm_json_leave(json, place);
 }
@@ -288,7 +301,6 @@ static void read_names(mtm_json_reader *json, const json_t *object, mtm_scene *s
 
 static void read_render(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"renderer", "basis", "size", "step", "blend", "jitter", "termination"};
-    static const char *const blends[] = {"composite", "sum", "maximum"};
     mtm_json_reader *json = reader->json;
     mtm_render_options *render = &reader->scene->render;
     int size[2];
@@ -302,7 +314,8 @@ static void read_render(mtm_scene_reader *reader, const json_t *document) {
             render->height = size[1];
         }
         (void)mtm_json_number(json, object, "step", (mtm_json_range){1e-6, 1e6}, &render->step);
-        if (mtm_json_choice(json, object, "blend", KEYS(blends), &blend)) render->blend = (mtm_blend)blend;
+        if (mtm_json_choice(json, object, "blend", mtm_blend_names, MTM_BLEND_COUNT, &blend))
+            render->blend = (mtm_blend)blend;
         (void)mtm_json_boolean(json, object, "jitter", &render->jitter);
         (void)mtm_json_number(json, object, "termination", mtm_json_unit, &render->termination);
     }
@@ -359,10 +372,10 @@ mtm_status mtm_scene_parse(const char *document, const char *text, const char *f
     json_t *object = NULL;
     mtm_scene *made = NULL;
     mtm_status status = mtm_json_parse(document, text, strlen(text), &object, error);
-    if (status == MTM_OK) status = mtm_scene_create(document, folder, &made, error);
+    if (status == MTM_OK) status = mtm_scene_create(document, folder == NULL ? "." : folder, &made, error);
     if (status == MTM_OK) {
         mtm_json_reader json = mtm_json_begin(document, error);
-        read_document(&(mtm_scene_reader){&json, made}, object);
+        read_document(&(mtm_scene_reader){&json, made, folder == NULL}, object);
         status = json.status;
     }
     json_decref(object);

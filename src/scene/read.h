@@ -9,6 +9,7 @@
 typedef struct mtm_scene_reader {
     mtm_json_reader *json;
     mtm_scene *scene;
+    bool is_embedded; /* the document stands alone: it may name no file but its volume */
 } mtm_scene_reader;
 
 /* An array of known keys and how many they are, as two arguments. */

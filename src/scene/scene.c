@@ -10,6 +10,8 @@
 #include "base/json.h"
 #include "base/memory.h"
 
+const char *const mtm_blend_names[MTM_BLEND_COUNT] = {"composite", "sum", "maximum"};
+
 mtm_status mtm_light_mix_create(int light_count, mtm_light_mix *mix, mtm_error *error) {
     *mix = (mtm_light_mix){.intensity = 1};
     mix->weights = mtm_allocate((size_t)light_count, sizeof *mix->weights);
@@ -138,9 +140,6 @@ mtm_status mtm_scene_override_palette(mtm_scene *scene, const mtm_palette *palet
     mtm_palette combined;
     mtm_status status = mtm_palette_copy(&scene->palette, &combined, error);
     if (status == MTM_OK) status = mtm_palette_override(&combined, palette, error);
-    if (status == MTM_OK && combined.light_count > MTM_LIGHTS_MAX)
-        status = mtm_fail(error, MTM_LIMIT, "%d lights are more than the %d a palette can hold",
-                          combined.light_count, MTM_LIGHTS_MAX);
     if (status == MTM_OK) status = extend_mix(&scene->lights, old_count, combined.light_count, error);
     for (int i = 0; i < scene->stop_count && status == MTM_OK; i++)
         status = extend_mix(&scene->stops[i].mix, old_count, combined.light_count, error);

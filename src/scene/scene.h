@@ -5,6 +5,10 @@
 
 #include "metamer/scene.h"
 
+/* The words for mtm_blend in documents. */
+enum { MTM_BLEND_COUNT = MTM_BLEND_MAXIMUM + 1 };
+extern const char *const mtm_blend_names[MTM_BLEND_COUNT];
+
 /* A scene with every default and nothing that has none; document and folder are copied. */
 MTM_CHECK mtm_status mtm_scene_create(const char *document, const char *folder, mtm_scene **scene,
                                       mtm_error *error);

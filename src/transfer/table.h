@@ -28,7 +28,9 @@ struct mtm_transfer {
     mtm_transfer_node *nodes;
     int segment_count;
     mtm_transfer_segment *segments;
-    int *lookup; /* the last node at or before the begin of each of LOOKUP_CELLS equal cells of -1 … 2 */
+    /* For MTM_LOOKUP_CELLS equal cells of -1 … 2 and the end: the last node strictly before the cell's begin, so that a
+     * search from there passes every node of a jump that stands on it. */
+    int *lookup;
     int *visible_before; /* number of visible cells before cell i; node_count entries */
     int dimension, lanes;
     float *encodings; /* (materials and white) × lanes, zeros behind the d coefficients */

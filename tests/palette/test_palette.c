@@ -120,7 +120,8 @@ static void overriding_goes_by_name_and_keeps_the_order(void **state) {
     assert_string_equal(palette.lights[3].name, "new");
     mtm_palette_free(&other);
     other = parse("{\"materials\": [{\"name\": \"stranger\", \"srgb\": \"#ffffff\"}]}");
-    assert_fails(mtm_palette_override(&palette, &other, &error), MTM_ARGUMENT, error, "no material or light");
+    assert_fails(mtm_palette_override(&palette, &other, &error), MTM_ARGUMENT, error,
+                 "no material that the old one knows");
     mtm_palette_free(&other);
     mtm_palette_free(&palette);
 }
@@ -137,7 +138,6 @@ static void bad_palettes_are_refused_with_key_and_value(void **state) {
     assert_refused("{\"materials\": [{\"name\": \"a\", \"srgb\": \"red\"}]}", "red");
     assert_refused("{\"materials\": [{\"name\": \"a\", \"values\": [1, 2]}]}", "81 numbers");
     assert_refused("{\"materials\": [{\"name\": \"a\", \"illuminant\": \"E\"}]}", "needs a reflectance");
-    assert_refused("{\"materials\": [{\"name\": \"a\", \"spectrum\": \"none.csv:x\"}]}", "none.csv");
     assert_refused("{\"materials\": [{\"name\": \"a\", \"srgb\": \"#ffffff\"}, {\"name\": \"a\", \"srgb\": "
                    "\"#000000\"}]}",
                    "materials[1].name");
@@ -150,8 +150,22 @@ static void bad_palettes_are_refused_with_key_and_value(void **state) {
     assert_refused("{\"lights\": [{\"name\": \"l\", \"illuminant\": \"E\", \"through\": [5]}]}", "holds 5");
     assert_refused("{\"lights\": [{\"name\": \"l\", \"illuminant\": \"E\", \"through\": [\"x\"]}]}",
                    "the palette has no material");
+    char huge[81 * 5 + 80] = "{\"materials\": [{\"name\": \"a\", \"values\": [1e39";
+    for (int i = 0; i < 80; i++) (void)strcat(huge, ",0");
+    (void)strcat(huge, "]}]}");
+    assert_refused(huge, "1e+39 at 380 nm");
     assert_refused("{\"materials\": 7}", "must be an array");
     assert_refused("{\"materials\": [", "test.json:1");
+}
+
+static void a_missing_file_is_an_io_failure_and_an_embedded_palette_names_none(void **state) {
+    (void)state;
+    static const char text[] = "{\"materials\": [{\"name\": \"a\", \"spectrum\": \"none.csv:x\"}]}";
+    mtm_error error;
+    mtm_palette palette;
+    assert_fails(mtm_palette_parse("test.json", text, ".", &palette, &error), MTM_IO, error, "none.csv");
+    assert_fails(mtm_palette_parse("test.json", text, NULL, &palette, &error), MTM_FORMAT, error,
+                 "stands alone");
 }
 
 static void a_name_of_64_bytes_is_too_long(void **state) {
@@ -171,6 +185,7 @@ int main(void) {
         cmocka_unit_test(a_mix_is_the_weighted_sum_of_equally_bright_lights),
         cmocka_unit_test(overriding_goes_by_name_and_keeps_the_order),
         cmocka_unit_test(bad_palettes_are_refused_with_key_and_value),
+        cmocka_unit_test(a_missing_file_is_an_io_failure_and_an_embedded_palette_names_none),
         cmocka_unit_test(a_name_of_64_bytes_is_too_long),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

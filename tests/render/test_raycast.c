@@ -453,6 +453,27 @@ static void a_flat_volume_and_a_missed_one_are_empty_pictures(void **state) {
     mtm_basis_destroy(basis);
 }
 
+/* Numbers that overflow on the way to the box must end as a missed volume, not as undefined conversions. */
+static void a_camera_beyond_all_numbers_sees_nothing(void **state) {
+    (void)state;
+    const mtm_grid grid = mtm_grid_defaults(9, 9, 9);
+    mtm_volume *volume = fixture_volume(&grid, half);
+    mtm_basis *basis = fixture_basis("materials", NULL);
+    const mtm_render_options options = fixture_plain_options();
+    for (int i = 0; i < 2; i++) {
+        mtm_camera camera = mtm_camera_defaults();
+        camera.fov = i * 30;
+        camera.distance = 1.5e308;
+        camera.has_target = true;
+        camera.target[0] = camera.target[1] = camera.target[2] = 1.5e308;
+        mtm_image *image = fixture_render(volume, 2, soft, 1, basis, &camera, &options);
+        for (int n = 0; n < 9 * 9 * image->lanes; n++) assert_true(image->pixels[n] == 0);
+        mtm_image_destroy(image);
+    }
+    mtm_basis_destroy(basis);
+    mtm_volume_destroy(volume);
+}
+
 static bool stop_at_once(void *user, double fraction) {
     (void)fraction;
     ++*(int *)user;
@@ -508,6 +529,7 @@ int main(void) {
         cmocka_unit_test(voxels_that_are_no_numbers_count_as_the_smallest_value),
         cmocka_unit_test(every_voxel_type_gives_the_same_picture),
         cmocka_unit_test(a_flat_volume_and_a_missed_one_are_empty_pictures),
+        cmocka_unit_test(a_camera_beyond_all_numbers_sees_nothing),
         cmocka_unit_test(unknown_renderers_tiny_steps_and_cancelling_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
