@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "metamer/image.h"
+
 argument_walk walk_arguments(const subcommand *command, int argc, char **argv) {
     return (argument_walk){.command = command, .count = argc, .texts = argv};
 }
@@ -97,8 +99,8 @@ bool parse_number(argument_walk *walk, const command_option *option, const char 
 bool parse_count(argument_walk *walk, const command_option *option, const char *value, int *result) {
     double number = 0;
     if (!parse_number(walk, option, value, &number)) return false;
-    if (number < 1 || number > 1024 || number != floor(number)) {
-        fail_usage(walk, "%s is \"%s\", must be a whole number from 1 to 1024", option->name, value);
+    if (number < 1 || number > 256 || number != floor(number)) {
+        fail_usage(walk, "%s is \"%s\", must be a whole number from 1 to 256", option->name, value);
         return false;
     }
     *result = (int)number;
@@ -107,18 +109,18 @@ bool parse_count(argument_walk *walk, const command_option *option, const char *
 
 bool parse_size(argument_walk *walk, const command_option *option, const char *value, int *width,
                 int *height) {
-    enum { EDGE_MAX = 32768 };
     int end = 0;
     int w = 0;
     int h = 0;
     const bool has_digits = strspn(value, "0123456789x") == strlen(value); /* no signs, no blanks */
     if (has_digits && sscanf(value, "%5dx%5d%n", &w, &h, &end) == 2 && value[end] == '\0' && w >= 1 &&
-        h >= 1 && w <= EDGE_MAX && h <= EDGE_MAX) {
+        h >= 1 && w <= MTM_IMAGE_EDGE_MAX && h <= MTM_IMAGE_EDGE_MAX) {
         *width = w;
         *height = h;
         return true;
     }
-    fail_usage(walk, "%s is \"%s\", must be WIDTHxHEIGHT, each from 1 to %d", option->name, value, EDGE_MAX);
+    fail_usage(walk, "%s is \"%s\", must be WIDTHxHEIGHT, each from 1 to %d", option->name, value,
+               MTM_IMAGE_EDGE_MAX);
     return false;
 }
 

@@ -14,6 +14,17 @@ static const command_option options[] = {
     {NULL, NULL, NULL},
 };
 
+/* JSON holds UTF-8 only; a byte of another encoding becomes a question mark. */
+static json_t *text_of(const char *text) {
+    json_t *value = json_string(text);
+    char *plain = value == NULL ? strdup(text) : NULL;
+    for (char *byte = plain; byte != NULL && *byte != '\0'; byte++)
+        if ((unsigned char)*byte >= 0x80) *byte = '?';
+    if (plain != NULL) value = json_string(plain);
+    free(plain);
+    return value;
+}
+
 static json_t *numbers(int count, const double *values) {
     json_t *array = json_array();
     for (int i = 0; i < count; i++) (void)json_array_append_new(array, json_real(values[i]));
@@ -33,12 +44,12 @@ static json_t *describe_volume(const mtm_volume *volume) {
         (void)json_array_append_new(axes, numbers(3, grid->axes[axis]));
     }
     const size_t bytes = mtm_volume_voxel_count(volume) * mtm_voxel_type_bytes(mtm_volume_type(volume));
-    return json_pack("{s:s, s:s, s:[i,i,i], s:o, s:o, s:o, s:s, s:b, s:o, s:f, s:f, s:I, s:s}", "kind",
+    return json_pack("{s:s, s:s, s:[i,i,i], s:o, s:o, s:o, s:o, s:b, s:o, s:f, s:f, s:I, s:s}", "kind",
                      "volume", "type", mtm_voxel_type_name(mtm_volume_type(volume)), "size", grid->size[0],
                      grid->size[1], grid->size[2], "spacing", numbers(3, spacing), "axes", axes, "origin",
-                     numbers(3, grid->origin), "unit", grid->unit, "oriented", (int)grid->is_oriented,
-                     "range", numbers(2, range), "slope", mtm_volume_slope(volume), "intercept",
-                     mtm_volume_intercept(volume), "bytes", (json_int_t)bytes, "sha256", sha256);
+                     numbers(3, grid->origin), "unit", text_of(grid->unit), "oriented",
+                     (int)grid->is_oriented, "range", numbers(2, range), "slope", mtm_volume_slope(volume),
+                     "intercept", mtm_volume_intercept(volume), "bytes", (json_int_t)bytes, "sha256", sha256);
 }
 
 /* Colors of a picture, encoded 0..1, of every material alone under every light alone. */
@@ -127,7 +138,7 @@ static mtm_status describe_picture_file(const char *path, json_t **object, mtm_e
     char *text = NULL;
     mtm_scene *scene = NULL;
     mtm_status status = mtm_picture_read_png(path, &picture, &text, error);
-    if (status == MTM_OK && text != NULL) status = mtm_scene_parse(path, text, ".", &scene, error);
+    if (status == MTM_OK && text != NULL) status = mtm_scene_parse(path, text, NULL, &scene, error);
     if (status == MTM_OK)
         *object = json_pack("{s:s, s:[i,i], s:o}", "kind", "picture", "size", picture->width, picture->height,
                             "scene", scene == NULL ? json_null() : describe_scene(scene));
@@ -137,11 +148,26 @@ static mtm_status describe_picture_file(const char *path, json_t **object, mtm_e
     return status;
 }
 
+/* The document, to see what it is; NULL where it is none or longer than a document may be. */
+static json_t *load_document(const char *path) {
+    enum { DOCUMENT_BYTES_MAX = 64 << 20 };
+    FILE *stream = fopen(path, "rb");
+    if (stream == NULL) return NULL;
+    json_t *document = NULL;
+    if (fseek(stream, 0, SEEK_END) == 0 && ftell(stream) <= DOCUMENT_BYTES_MAX) {
+        rewind(stream);
+        skip_utf8_mark(stream);
+        document = json_loadf(stream, 0, NULL);
+    }
+    (void)fclose(stream);
+    return document;
+}
+
 /* A scene has a volume; a document without one is a palette. */
 static mtm_status describe_json_file(const char *path, json_t **object, mtm_error *error) {
     mtm_scene *scene = NULL;
     mtm_palette palette;
-    json_t *document = json_load_file(path, 0, NULL);
+    json_t *document = load_document(path);
     const bool is_palette =
         json_object_get(document, "volume") == NULL &&
         (json_object_get(document, "materials") != NULL || json_object_get(document, "lights") != NULL);
@@ -163,8 +189,7 @@ static mtm_status describe_table_file(const char *path, json_t **object, mtm_err
     const mtm_status status = mtm_spectrum_table_read(path, &table, error);
     if (status != MTM_OK) return status;
     json_t *names = json_array();
-    for (int i = 0; i < table.column_count; i++)
-        (void)json_array_append_new(names, json_string(table.names[i]));
+    for (int i = 0; i < table.column_count; i++) (void)json_array_append_new(names, text_of(table.names[i]));
     const double range[2] = {table.wavelength_nm[0], table.wavelength_nm[table.row_count - 1]};
     *object = json_pack("{s:s, s:o, s:i, s:o}", "kind", "spectra", "wavelength_nm", numbers(2, range), "rows",
                         table.row_count, "columns", names);
@@ -233,7 +258,11 @@ static int run(const subcommand *command, int argc, char **argv) {
     mtm_error error = {""};
     json_t *object = NULL;
     if (describe_file(path, &object, &error) != MTM_OK) return fail_command(command, &error);
-    (void)json_object_set_new(object, "file", json_string(path));
+    if (object == NULL) {
+        (void)snprintf(error.message, sizeof error.message, "%s: cannot be described: out of memory", path);
+        return fail_command(command, &error);
+    }
+    (void)json_object_set_new(object, "file", text_of(path));
     if (is_json) {
         (void)json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
         (void)printf("\n");

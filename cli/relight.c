@@ -20,8 +20,6 @@ static const command_option options[] = {
     {NULL, NULL, NULL},
 };
 
-enum { LIGHTS_MAX = 256 };
-
 typedef struct light_weight {
     char name[MTM_NAME_MAX + 1];
     double weight;
@@ -29,7 +27,7 @@ typedef struct light_weight {
 
 typedef struct relight_request {
     const char *input, *output, *illuminant, *stop, *palette, *observer, *background;
-    light_weight lights[LIGHTS_MAX];
+    light_weight lights[MTM_LIGHTS_MAX];
     int light_count, threads;
     double intensity; /* -1: as in the scene */
 } relight_request;
@@ -39,8 +37,8 @@ static void add_light(argument_walk *walk, const command_option *option, const c
                       relight_request *request) {
     const char *equals = strrchr(value, '=');
     light_weight *light = &request->lights[request->light_count];
-    if (request->light_count == LIGHTS_MAX) {
-        fail_usage(walk, "more than %d times --light", LIGHTS_MAX);
+    if (request->light_count == MTM_LIGHTS_MAX) {
+        fail_usage(walk, "more than %d times --light", MTM_LIGHTS_MAX);
         return;
     }
     if (equals == NULL || equals == value || equals - value > MTM_NAME_MAX) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * What several subcommands do. */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "task.h"
 
 #include <ctype.h>
@@ -60,10 +61,17 @@ static bool is_device(const char *path) {
     return stat(path, &state) == 0 && !S_ISREG(state.st_mode) && !S_ISDIR(state.st_mode);
 }
 
+void skip_utf8_mark(FILE *stream) {
+    char mark[3] = "";
+    if (fread(mark, 1, sizeof mark, stream) != sizeof mark || memcmp(mark, "\xEF\xBB\xBF", sizeof mark) != 0)
+        rewind(stream);
+}
+
 file_kind kind_of_file(const char *path) {
     if (is_device(path)) return FILE_OTHER; /* what is read to look at it would be gone */
     FILE *stream = fopen(path, "rb");
     if (stream == NULL) return FILE_UNREADABLE;
+    skip_utf8_mark(stream);
     int first = fgetc(stream);
     while (first != EOF && isspace(first)) first = fgetc(stream);
     (void)fclose(stream);
@@ -89,9 +97,12 @@ static mtm_status scene_of_text(const char *path, const char *text, mtm_scene **
         (void)snprintf(error->message, sizeof error->message, "%s: carries no scene to render", path);
         return MTM_FORMAT;
     }
-    char *folder = folder_of(path);
-    const mtm_status status = mtm_scene_parse(path, text, folder == NULL ? "." : folder, scene, error);
-    free(folder);
+    const mtm_status status = mtm_scene_parse(path, text, NULL, scene, error);
+    char *folder = status == MTM_OK ? folder_of(path) : NULL;
+    if (folder != NULL) { /* its volume is looked for beside the picture */
+        free((*scene)->folder);
+        (*scene)->folder = folder;
+    }
     return status;
 }
 
@@ -120,6 +131,12 @@ mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **sce
     case FILE_JSON: status = mtm_scene_read(path, scene, error); break;
     case FILE_UNREADABLE:
     case FILE_OTHER:
+        if (volume_path != NULL) {
+            (void)snprintf(error->message, sizeof error->message,
+                           "%s: is no scene and no picture, so there is no volume to replace by --volume %s",
+                           path, volume_path);
+            return MTM_ARGUMENT;
+        }
         status = mtm_volume_read(path, volume, error);
         return status == MTM_OK ? mtm_scene_for_volume(*volume, path, scene, error) : status;
     }
@@ -127,13 +144,19 @@ mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **sce
 }
 
 mtm_status check_output(const char *path, mtm_error *error) {
-    char *folder = folder_of(path);
-    const bool is_writable =
-        is_device(path) ? access(path, W_OK) == 0 : folder != NULL && access(folder, W_OK | X_OK) == 0;
+    char *target = realpath(path, NULL); /* of a link, the file behind it is replaced */
+    char *folder = folder_of(target == NULL ? path : target);
+    struct stat state;
+    bool is_writable = folder != NULL && (is_device(path) || access(folder, W_OK | X_OK) == 0);
+    if (is_writable && stat(path, &state) == 0) {
+        is_writable = !S_ISDIR(state.st_mode) && access(path, W_OK) == 0;
+        if (S_ISDIR(state.st_mode)) errno = EISDIR;
+    }
     if (!is_writable)
         (void)snprintf(error->message, sizeof error->message, "%s: cannot be written: %s", path,
                        strerror(errno));
     free(folder);
+    free(target);
     return is_writable ? MTM_OK : MTM_IO;
 }
 

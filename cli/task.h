@@ -3,6 +3,8 @@
 #ifndef METAMER_CLI_TASK_H
 #define METAMER_CLI_TASK_H
 
+#include <stdio.h>
+
 #include "command.h"
 #include "metamer/metamer.h"
 
@@ -25,6 +27,9 @@ void end_progress(progress_bar *bar);
 /* What a file is, by its content (a scene by its first character). */
 typedef enum file_kind { FILE_UNREADABLE, FILE_PNG, FILE_EXR, FILE_JSON, FILE_OTHER } file_kind;
 file_kind kind_of_file(const char *path);
+
+/* Moves a stream at its beginning behind the mark that some editors put before UTF-8 text. */
+void skip_utf8_mark(FILE *stream);
 bool has_extension(const char *path, const char *extension);
 
 /* The scene a file describes (a document, a picture or an image that carries one, or a volume's default scene) and its

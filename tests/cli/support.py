@@ -88,6 +88,26 @@ def png_chunks(path):
     return chunks
 
 
+def embedded_scene(path):
+    """The text of the chunk metamer.scene: keyword, 0, is compressed, method, language, 0, keyword, 0, text."""
+    body = next(body for kind, body in png_chunks(path) if kind == "iTXt" and body.startswith(b"metamer.scene"))
+    keyword, rest = body.split(b"\0", 1)
+    text = rest[2:].split(b"\0", 2)[2]
+    return (zlib.decompress(text) if rest[0] == 1 else text).decode()
+
+
+def embed_scene(path, result, scene):
+    """A copy of a PNG with another embedded scene."""
+    with open(result, "wb") as stream:
+        stream.write(b"\x89PNG\r\n\x1a\n")
+        for kind, body in png_chunks(path):
+            if kind == "iTXt":
+                body = b"metamer.scene\0\1\0\0\0" + zlib.compress(scene.encode())
+            kind = kind.encode()
+            crc = zlib.crc32(kind + body)
+            stream.write(struct.pack(">I", len(body)) + kind + body + struct.pack(">I", crc))
+
+
 def png_color_type(path):
     """2 for RGB, 6 for RGB and alpha."""
     return png_chunks(path)[0][1][9]

@@ -123,6 +123,28 @@ class Input(support.CliTest):
         support.write_nrrd(self.path("far.nrrd"), (2, 2, 2), [-1.7e308, 1.7e308] * 4, "double")
         self.refuse("render", "far.nrrd", "-o", "out.png", texts=["far.nrrd", "1.7e+308"])
 
+    def test_a_volume_has_no_volume_to_replace(self):
+        support.write_nrrd(self.path("blob.nrrd"))
+        self.refuse("render", "blob.nrrd", "--volume", "other.nrrd", "-o", "out.png", texts=["blob.nrrd", "--volume"])
+
+    def test_text_that_is_no_utf8_is_shown_all_the_same(self):
+        support.write_nrrd(self.path("unit.nrrd"), fields=("space: LPS", "space directions: (1,0,0) (0,1,0) (0,0,1)"))
+        text = support.read_bytes(self.path("unit.nrrd")).replace(b"encoding:", b'space units: "\xb5m" "\xb5m" "\xb5m"\nencoding:')
+        with open(self.path("unit.nrrd"), "wb") as stream:
+            stream.write(text)
+        self.assertIn("?m", self.succeed("info", "unit.nrrd"))
+
+    def test_an_embedded_scene_names_no_files(self):
+        support.write_nrrd(self.path("blob.nrrd"))
+        scene = support.make_scene()
+        self.write_json("scene.json", scene)
+        self.succeed("render", "scene.json", "-o", "in.png")
+        document = json.loads(support.embedded_scene(self.path("in.png")))
+        document["palette"] = {"file": "palette.json"}
+        support.embed_scene(self.path("in.png"), self.path("bad.png"), json.dumps(document))
+        self.refuse("render", "bad.png", "-o", "out.png", texts=["bad.png", "palette.file", "stands alone"])
+        self.refuse("info", "bad.png", texts=["bad.png", "stands alone"])
+
     def test_an_utf8_mark_before_a_scene_is_passed_over(self):
         text = "\ufeff" + json.dumps(support.make_scene())
         with open(self.path("marked.json"), "w", encoding="utf-8") as stream:
