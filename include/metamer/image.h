@@ -37,6 +37,8 @@ typedef struct mtm_picture {
     float *rgba; /* height × width × 4 */
 } mtm_picture;
 
+/* A black, transparent picture of width × height pixels, each 1 … MTM_IMAGE_EDGE_MAX (precondition). MTM_MEMORY. Release
+ * with mtm_picture_destroy (NULL allowed). */
 MTM_API MTM_CHECK mtm_status mtm_picture_create(int width, int height, mtm_picture **picture,
                                                 mtm_error *error);
 MTM_API void mtm_picture_destroy(mtm_picture *picture);
@@ -63,12 +65,14 @@ MTM_API MTM_CHECK mtm_status mtm_image_read(const char *path, mtm_image **image,
 /* Writes an 8-bit sRGB PNG: colors clipped to 0..1 and encoded here and only here. RGB where every alpha is 1, else
  * RGBA with straight alpha (raised to the largest color channel where light was added without covering anything,
  * so that the picture over black stays the same). `scene` (NULL: none) is embedded as iTXt chunk "metamer.scene".
- * The same picture and scene give the same bytes. */
+ * The same picture and scene give the same bytes. MTM_IO, MTM_MEMORY; nothing is left behind on
+ * failure. */
 MTM_API MTM_CHECK mtm_status mtm_picture_write_png(const mtm_picture *picture, const char *path,
                                                    const char *scene, mtm_error *error);
 
 /* Reads any PNG as a picture (8- or 16-bit, grey, palette or color, with or without alpha, taken as sRGB); `scene`
- * (NULL: not wanted) receives the embedded scene or NULL, release with mtm_text_free. */
+ * (NULL: not wanted) receives the embedded scene or NULL, release with mtm_text_free. MTM_IO, MTM_FORMAT for a
+ * damaged file, MTM_LIMIT, MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_picture_read_png(const char *path, mtm_picture **picture, char **scene,
                                                   mtm_error *error);
 
@@ -88,7 +92,7 @@ typedef struct mtm_comparison {
     size_t pixels;
 } mtm_comparison;
 
-/* MTM_ARGUMENT where the sizes differ. */
+/* Compares two pictures of one size. MTM_ARGUMENT where the sizes differ, MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_picture_compare(const mtm_picture *a, const mtm_picture *b,
                                                  mtm_comparison *comparison, mtm_error *error);
 

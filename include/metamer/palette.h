@@ -34,17 +34,19 @@ typedef struct mtm_palette {
 } mtm_palette;
 
 MTM_API void mtm_palette_free(mtm_palette *palette);
+/* A copy of its own. MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_palette_copy(const mtm_palette *palette, mtm_palette *copy,
                                               mtm_error *error);
 
-/* Three materials (soft, middle, dense) and three lights (daylight, lamp, tube) for a volume nobody has described. */
+/* Three materials (soft, middle, dense) and three lights (daylight, lamp, tube) for a volume nobody has described. MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_palette_defaults(mtm_palette *palette, mtm_error *error);
 
 /* Reads {"materials": […], "lights": […]} as described in docs/scene.md; CSV files are looked for beside it. Every
  * error names the file, the key and the value. On success release with mtm_palette_free. */
 MTM_API MTM_CHECK mtm_status mtm_palette_read(const char *path, mtm_palette *palette, mtm_error *error);
 
-/* The same from text; `document` names it in messages, `folder` is where its CSV files are. */
+/* The same from text; `document` names it in messages, `folder` is where its CSV files are. NULL: an embedded document
+ * that stands alone and may name none. MTM_FORMAT; MTM_IO, MTM_LIMIT and MTM_MEMORY as its files give them. */
 MTM_API MTM_CHECK mtm_status mtm_palette_parse(const char *document, const char *text, const char *folder,
                                                mtm_palette *palette, mtm_error *error);
 
@@ -61,7 +63,8 @@ MTM_API const char *mtm_palette_nearest_material(const mtm_palette *palette, con
 MTM_API const char *mtm_palette_nearest_light(const mtm_palette *palette, const char *name);
 
 /* The scene's light: intensity · Σ weights[i]·Eᵢ over the palette's lights, each scaled to Y = 1 on the perfect
- * reflector (CIE 1931) first; weights are not renormalised. */
+ * reflector (CIE 1931) first; weights are not renormalised. A light without luminance, which no document can hold, adds
+ * nothing. */
 MTM_API mtm_spectrum mtm_palette_mix(const mtm_palette *palette, const double *weights, double intensity);
 
 /* Takes the reflectances of materials and the lights of `other` that have the same name, and adds its other lights.

@@ -66,28 +66,31 @@ typedef struct mtm_scene {
 } mtm_scene;
 
 /* Reads a scene document, strictly: unknown keys, wrong types and values out of range are errors that name file, key
- * and value (MTM_FORMAT). Release with mtm_scene_destroy (NULL allowed). */
+ * and value: MTM_FORMAT; MTM_IO, MTM_LIMIT and MTM_MEMORY as its files give them. Release with mtm_scene_destroy (NULL
+ * allowed). */
 MTM_API MTM_CHECK mtm_status mtm_scene_read(const char *path, mtm_scene **scene, mtm_error *error);
 
-/* The same from text; `document` names it in messages, `folder` is where its files are. */
+/* The same from text; `document` names it in messages, `folder` is where its files are. NULL: an embedded document that
+ * stands alone and may name no file but its volume, which is then looked for in the working folder. */
 MTM_API MTM_CHECK mtm_status mtm_scene_parse(const char *document, const char *text, const char *folder,
                                              mtm_scene **scene, mtm_error *error);
 MTM_API void mtm_scene_destroy(mtm_scene *scene);
 
 /* A scene for a volume nobody has described: opacity from the percentiles of its values, three materials, three
- * lights. `path` is the volume's file. */
+ * lights, and a camera that shows the object whole in a square picture. `path` is the volume's file. MTM_LIMIT where its
+ * values are too far apart, MTM_ARGUMENT where its name is not UTF-8, MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_scene_for_volume(const mtm_volume *volume, const char *path,
                                                   mtm_scene **scene, mtm_error *error);
 
 /* Reads the scene's volume: `volume_path` where not NULL, else the document's file beside the document, then in the
  * folders of the environment variable METAMER_DATA (separated by colons). A volume of another size or hash than the
  * document states is refused (MTM_ARGUMENT) unless `volume_path` names it. Afterwards the scene states name, size and
- * hash of the volume that was read. */
+ * hash of the volume that was read. MTM_IO, MTM_FORMAT, MTM_LIMIT and MTM_MEMORY as its file gives them. */
 MTM_API MTM_CHECK mtm_status mtm_scene_load_volume(mtm_scene *scene, const char *volume_path,
                                                    mtm_volume **volume, mtm_error *error);
 
 /* The scene as a document that stands alone: spectra inlined, the volume by file name, size and hash. The same scene
- * always gives the same text, and reading it gives the same scene. Release with mtm_text_free; NULL when out of
+ * always gives the same text, and reading it gives the same scene but for the volume's folder, which is left out. Release with mtm_text_free; NULL when out of
  * memory. */
 MTM_API char *mtm_scene_format(const mtm_scene *scene);
 
@@ -124,8 +127,9 @@ MTM_API MTM_CHECK mtm_status mtm_scene_reconstruction(const mtm_scene *scene, co
 MTM_API MTM_CHECK mtm_status mtm_scene_of_image(const mtm_image *image, const char *path, mtm_scene **scene,
                                                 mtm_error *error);
 
-/* The image under the scene's light, on the scene's background. MTM_ARGUMENT where the image's basis cannot be lit
- * that way, with the reason. */
+/* The image under the scene's light, on the scene's background. The scene is the image's own, changed: its materials are
+ * the image's, in the image's order. MTM_ARGUMENT where the image's basis cannot be lit that way, with the reason;
+ * MTM_FORMAT where the number of materials does not fit; MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_scene_relight(const mtm_scene *scene, const mtm_image *image,
                                                int thread_count, mtm_picture **picture, mtm_error *error);
 
