@@ -195,32 +195,29 @@ static sample_shade shade_sample(const mtm_raycast *raycast, const ray_span *ray
     return result;
 }
 
-ALWAYS_INLINE void add_material(gathered *sum, const mtm_transfer_segment *segment, float share,
-                                double weight, int lanes) {
+ALWAYS_INLINE void add_material(gathered *sum, const mtm_transfer_row *row, double weight, int lanes) {
     for (int i = 0; i < lanes; i++)
-        sum->coefficients[i] += weight * lerp(segment->first[i], segment->last[i], share);
+        sum->coefficients[i] += weight * lerp(row->segment->first[i], row->segment->last[i], row->share);
+}
+
+/* ∫T over `length` of matter, (1 - e^-τl)/τ, where `lost` is e^-τl - 1. */
+ALWAYS_INLINE double seen_length(double extinction, double lost, double length) {
+    return extinction > 0 ? -lost / extinction : length;
 }
 
 /* One sample that stands for `length` of the ray: light scattered toward the eye, then absorption (paper eq. 5). */
 ALWAYS_INLINE void add_sample(const mtm_raycast *raycast, const ray_span *ray, const sample_place *place,
                               mtm_cell *loaded, float position, double length, gathered *sum, int lanes) {
-    const struct mtm_transfer *transfer = raycast->transfer;
-    const mtm_transfer_node *node = &transfer->nodes[mtm_transfer_cell(transfer, position)];
-    const float fraction = mtm_transfer_fraction(node, position);
-    const double extinction = raycast->options.blend == MTM_BLEND_SUM
-                                  ? 0
-                                  : (double)lerp(node[0].extinction, node[1].extinction, fraction);
-    const double emission = lerp(node[0].emission, node[1].emission, fraction);
+    const mtm_transfer_row row = mtm_transfer_look_up(raycast->transfer, position);
+    const double extinction = raycast->options.blend == MTM_BLEND_SUM ? 0 : (double)row.extinction;
+    const double emission = row.emission;
     if (!(extinction > 0) && !(emission > 0)) return;
 
-    /* ∫T over the sample is (1 - e^-τl)/τ; the material's emission is constant in it. */
     const double lost = expm1(-extinction * length);
-    const double seen = extinction > 0 ? -lost / extinction : length;
+    const double seen = seen_length(extinction, lost, length); /* the material's emission is constant in it */
     if (emission > 0) {
         const sample_shade shade = shade_sample(raycast, ray, place, loaded);
-        const mtm_transfer_segment *segment = &transfer->segments[node->segment];
-        const float share = (position - segment->begin) * segment->inverse_length;
-        add_material(sum, segment, share, sum->transmittance * emission * seen * shade.material, lanes);
+        add_material(sum, &row, sum->transmittance * emission * seen * shade.material, lanes);
         /* Only matter that absorbs can shine: an X-ray material made black must vanish, highlights and all. */
         sum->highlight += sum->transmittance * fmin(emission, extinction) * seen * shade.white;
     }
@@ -297,16 +294,10 @@ static void find_maximum(const mtm_raycast *raycast, const ray_span *ray, gather
         }
     }
     if (highest == -HUGE_VALF) return;
-    const struct mtm_transfer *transfer = raycast->transfer;
-    const float position = mtm_transfer_clamp(highest);
-    const mtm_transfer_node *node = &transfer->nodes[mtm_transfer_cell(transfer, position)];
-    const float fraction = mtm_transfer_fraction(node, position);
-    const double extinction = lerp(node[0].extinction, node[1].extinction, fraction);
-    const double emission = lerp(node[0].emission, node[1].emission, fraction);
-    const double lost = expm1(-extinction * transfer->opacity_length);
-    const double scattered = emission * (extinction > 0 ? -lost / extinction : transfer->opacity_length);
-    const mtm_transfer_segment *segment = &transfer->segments[node->segment];
-    add_material(sum, segment, (position - segment->begin) * segment->inverse_length, scattered, lanes);
+    const double length = raycast->transfer->opacity_length;
+    const mtm_transfer_row row = mtm_transfer_look_up(raycast->transfer, mtm_transfer_clamp(highest));
+    const double lost = expm1(-row.extinction * length);
+    add_material(sum, &row, row.emission * seen_length(row.extinction, lost, length), lanes);
     sum->transmittance += lost;
 }
 

@@ -61,6 +61,25 @@ static inline float mtm_transfer_fraction(const mtm_transfer_node *node, float p
     return width > 0 ? (position - node[0].position) / width : 1.0f;
 }
 
+/* What the table holds at a clamped position. */
+typedef struct mtm_transfer_row {
+    float extinction, emission;          /* per world unit */
+    const mtm_transfer_segment *segment; /* the mix: from segment->first … */
+    float share;                         /* … this far to segment->last */
+} mtm_transfer_row;
+
+static inline mtm_transfer_row mtm_transfer_look_up(const struct mtm_transfer *transfer, float position) {
+    const mtm_transfer_node *node = &transfer->nodes[mtm_transfer_cell(transfer, position)];
+    const mtm_transfer_segment *segment = &transfer->segments[node->segment];
+    const float fraction = mtm_transfer_fraction(node, position);
+    return (mtm_transfer_row){
+        .extinction = node[0].extinction + fraction * (node[1].extinction - node[0].extinction),
+        .emission = node[0].emission + fraction * (node[1].emission - node[0].emission),
+        .segment = segment,
+        .share = (position - segment->begin) * segment->inverse_length,
+    };
+}
+
 /* Whether any of the cells between two clamped positions is visible. */
 static inline bool mtm_transfer_sees(const struct mtm_transfer *transfer, float low, float high) {
     const int first = mtm_transfer_cell(transfer, low);

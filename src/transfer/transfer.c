@@ -162,16 +162,10 @@ void mtm_transfer_destroy(mtm_transfer *transfer) {
 
 mtm_classified mtm_transfer_classify(const mtm_transfer *transfer, double value, float *coefficients) {
     const float position = mtm_transfer_clamp(mtm_transfer_position(transfer, value));
-    const mtm_transfer_node *node = &transfer->nodes[mtm_transfer_cell(transfer, position)];
-    const double fraction = mtm_transfer_fraction(node, position);
-    if (coefficients != NULL) {
-        const mtm_transfer_segment *segment = &transfer->segments[node->segment];
-        const float share = (position - segment->begin) * segment->inverse_length;
-        for (int i = 0; i < transfer->dimension; i++)
-            coefficients[i] = segment->first[i] + share * (segment->last[i] - segment->first[i]);
-    }
-    return (mtm_classified){mix(node[0].extinction, node[1].extinction, fraction),
-                            mix(node[0].emission, node[1].emission, fraction)};
+    const mtm_transfer_row row = mtm_transfer_look_up(transfer, position);
+    for (int i = 0; coefficients != NULL && i < transfer->dimension; i++)
+        coefficients[i] = row.segment->first[i] + row.share * (row.segment->last[i] - row.segment->first[i]);
+    return (mtm_classified){row.extinction, row.emission};
 }
 
 bool mtm_transfer_is_visible(const mtm_transfer *transfer, double low, double high) {
