@@ -14,20 +14,34 @@ enum { MATERIALS_MAX = MTM_DIMENSION_MAX - 1 /* white is the last column */ };
 static const mtm_basis_kind *const kinds[] = {&mtm_basis_materials, &mtm_basis_wavelengths, &mtm_basis_rgb};
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };
 
-static const mtm_basis_kind *find_kind(const char *name) {
-    if (strcmp(name, "auto") == 0) return &mtm_basis_materials;
-    for (size_t i = 0; i < KIND_COUNT; i++)
-        if (strcmp(name, kinds[i]->name) == 0) return kinds[i];
-    return NULL;
+/* What a name asks for: the kind, and the number after the colon (0 without one, -1 for one that is none). */
+typedef struct request {
+    const mtm_basis_kind *kind;
+    int dimension;
+} request;
+
+static request choose_kind(int material_count) {
+    (void)material_count;
+    return (request){&mtm_basis_materials, 0};
+}
+
+static int parse_dimension(const char *text) {
+    const size_t digits = strspn(text, "0123456789");
+    return digits == 0 || digits > 3 || text[digits] != '\0' ? -1 : atoi(text);
+}
+
+static request find_kind(const char *name, int material_count) {
+    if (strcmp(name, "auto") == 0) return choose_kind(material_count);
+    for (size_t i = 0; i < KIND_COUNT; i++) {
+        const size_t length = strlen(kinds[i]->name);
+        if (strncmp(name, kinds[i]->name, length) != 0) continue;
+        if (name[length] == '\0') return (request){kinds[i], 0};
+        if (name[length] == ':') return (request){kinds[i], parse_dimension(name + length + 1)};
+    }
+    return (request){NULL, 0};
 }
 
 static mtm_status fail_unknown(const char *name, mtm_error *error) {
-    for (size_t i = 0; i < KIND_COUNT; i++) {
-        const size_t length = strlen(kinds[i]->name);
-        if (strncmp(name, kinds[i]->name, length) == 0 && name[length] == ':')
-            return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\": %s has no dimension to choose, write \"%s\"",
-                            name, kinds[i]->name, kinds[i]->name);
-    }
     char known[128] = "auto";
     for (size_t i = 0; i < KIND_COUNT; i++) {
         const size_t length = strlen(known);
@@ -36,43 +50,75 @@ static mtm_status fail_unknown(const char *name, mtm_error *error) {
     return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" is not known; known are %s", name, known);
 }
 
+static mtm_status fail_dimension(const char *name, const mtm_basis_kind *kind, mtm_error *error) {
+    if (kind->dimensions == NULL)
+        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\": %s has no dimension to choose, write \"%s\"",
+                        name, kind->name, kind->name);
+    return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\": the dimension of %s is %s", name, kind->name,
+                    kind->dimensions);
+}
+
+static void name_basis(mtm_basis *basis) {
+    const mtm_basis_kind *kind = basis->kind;
+    if (kind->dimensions == NULL || basis->dimension == kind->plain_dimension)
+        (void)snprintf(basis->name, sizeof basis->name, "%s", kind->name);
+    else
+        (void)snprintf(basis->name, sizeof basis->name, "%s:%d", kind->name, basis->dimension);
+}
+
+/* A basis with everything but its encoder and columns, which are zero. NULL when out of memory. */
+static mtm_basis *allocate_basis(const mtm_basis_kind *kind, int dimension, int material_count) {
+    mtm_basis *made = mtm_allocate(1, sizeof *made);
+    if (made == NULL) return NULL;
+    *made = (mtm_basis){.kind = kind, .dimension = dimension, .material_count = material_count};
+    made->reflectances = mtm_allocate((size_t)material_count + 1, sizeof *made->reflectances);
+    made->encoder = mtm_allocate((size_t)dimension, sizeof *made->encoder);
+    made->columns = mtm_allocate((size_t)dimension, sizeof *made->columns);
+    if (made->reflectances != NULL && made->encoder != NULL && made->columns != NULL) return made;
+    mtm_basis_destroy(made);
+    return NULL;
+}
+
 mtm_status mtm_basis_create(const char *name, int material_count, const mtm_spectrum *reflectances,
                             const mtm_illumination *illumination, mtm_basis **basis, mtm_error *error) {
     assert(material_count >= 0 && (material_count == 0 || reflectances != NULL));
-    const mtm_basis_kind *kind = find_kind(name);
-    if (kind == NULL) return fail_unknown(name, error);
-    if (kind->needs_illumination && illumination == NULL)
-        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" needs a light to encode colors under", kind->name);
+    const request asked = find_kind(name, material_count);
+    if (asked.kind == NULL) return fail_unknown(name, error);
+    const int dimension = asked.kind->dimension(asked.dimension, material_count);
+    if (dimension == 0) return fail_dimension(name, asked.kind, error);
+    if (asked.kind->needs_illumination && illumination == NULL)
+        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" needs a light to encode colors under", name);
     if (material_count > MATERIALS_MAX)
         return mtm_fail(error, MTM_LIMIT, "%d materials are more than the %d a basis can hold",
                         material_count, MATERIALS_MAX);
 
-    mtm_basis *made = mtm_allocate(1, sizeof *made);
-    mtm_spectrum *copies = mtm_allocate((size_t)material_count + 1, sizeof *copies);
-    if (made == NULL || copies == NULL) {
-        free(made);
-        free(copies);
-        return mtm_fail_memory(error, "the basis", ((size_t)material_count + 1) * sizeof *copies);
-    }
-    if (material_count > 0) memcpy(copies, reflectances, (size_t)material_count * sizeof *copies);
-    copies[material_count] = mtm_spectrum_constant(1);
-    *made = (mtm_basis){.kind = kind,
-                        .dimension = kind->dimension(material_count),
-                        .material_count = material_count,
-                        .reflectances = copies};
+    mtm_basis *made = allocate_basis(asked.kind, dimension, material_count);
+    if (made == NULL)
+        return mtm_fail_memory(error, "the basis",
+                               ((size_t)material_count + 2 * (size_t)dimension) * sizeof *reflectances);
+    name_basis(made);
+    if (material_count > 0)
+        memcpy(made->reflectances, reflectances, (size_t)material_count * sizeof *reflectances);
+    made->reflectances[material_count] = mtm_spectrum_constant(1);
     if (illumination != NULL) made->illumination = *illumination;
-    *basis = made;
-    return MTM_OK;
+    const mtm_status status = asked.kind->prepare(made, error);
+    if (status != MTM_OK)
+        mtm_basis_destroy(made);
+    else
+        *basis = made;
+    return status;
 }
 
 void mtm_basis_destroy(mtm_basis *basis) {
     if (basis == NULL) return;
     free(basis->reflectances);
+    free(basis->encoder);
+    free(basis->columns);
     free(basis);
 }
 
 const char *mtm_basis_name(const mtm_basis *basis) {
-    return basis->kind->name;
+    return basis->name;
 }
 
 int mtm_basis_dimension(const mtm_basis *basis) {
@@ -83,13 +129,28 @@ int mtm_basis_material_count(const mtm_basis *basis) {
     return basis->material_count;
 }
 
+static double encode_one(const mtm_basis *basis, int coefficient, const mtm_spectrum *spectrum) {
+    double sum = 0;
+    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
+        sum += basis->encoder[coefficient].value[i] * spectrum->value[i];
+    return sum;
+}
+
+/* The reflectance of index `material`; white is the last. */
+static void encode_reflectance(const mtm_basis *basis, int material, float *coefficients) {
+    for (int i = 0; i < basis->dimension; i++)
+        coefficients[i] = !basis->kind->has_encoder
+                              ? (float)(i == material)
+                              : (float)encode_one(basis, i, &basis->reflectances[material]);
+}
+
 void mtm_basis_encode_material(const mtm_basis *basis, int material, float *coefficients) {
     assert(material >= 0 && material < basis->material_count);
-    basis->kind->encode(basis, material, coefficients);
+    encode_reflectance(basis, material, coefficients);
 }
 
 void mtm_basis_encode_white(const mtm_basis *basis, float *coefficients) {
-    basis->kind->encode(basis, basis->material_count, coefficients);
+    encode_reflectance(basis, basis->material_count, coefficients);
 }
 
 mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illumination, double *matrix,
@@ -98,14 +159,12 @@ mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illu
 }
 
 mtm_status mtm_basis_reconstruction(const mtm_basis *basis, float *rows, mtm_error *error) {
-    if (basis->kind->column == NULL)
+    if (!basis->kind->has_spectra)
         return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" holds no spectra to reconstruct",
                         basis->kind->name);
-    for (int column = 0; column < basis->dimension; column++) {
-        const mtm_spectrum spectrum = basis->kind->column(basis, column);
-        for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
-            rows[i * basis->dimension + column] = (float)spectrum.value[i];
-    }
+    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
+        for (int column = 0; column < basis->dimension; column++)
+            rows[i * basis->dimension + column] = (float)basis->columns[column].value[i];
     return MTM_OK;
 }
 
@@ -122,8 +181,7 @@ mtm_status mtm_basis_light_columns(const mtm_basis *basis, const mtm_illuminatio
     (void)error;
     const int d = basis->dimension;
     for (int i = 0; i < d; i++) {
-        const mtm_spectrum spectrum = basis->kind->column(basis, i);
-        const mtm_rgb color = mtm_illuminate(illumination, &spectrum);
+        const mtm_rgb color = mtm_illuminate(illumination, &basis->columns[i]);
         matrix[i] = color.r;
         matrix[d + i] = color.g;
         matrix[2 * d + i] = color.b;

@@ -7,23 +7,30 @@
 
 typedef struct mtm_basis_kind {
     const char *name;
-    /* Coefficients per pixel for a scene of `material_count` materials. */
-    int (*dimension)(int material_count);
-    /* The reflectance of index `material` (material_count: white), as d coefficients. */
-    void (*encode)(const mtm_basis *basis, int material, float *coefficients);
+    const char *dimensions; /* what may follow "name:", for messages; NULL: nothing */
+    int plain_dimension;    /* the one that files call by the kind's name alone; 0: none */
+    /* d for a scene of `material_count` materials; `asked` is the number after the name, 0 without one. 0 where the
+     * kind has no such dimension. */
+    int (*dimension)(int asked, int material_count);
+    /* Fills the encoder and the columns, each d zero spectra. */
+    mtm_status (*prepare)(mtm_basis *basis, mtm_error *error);
     /* 3 rows of d. */
     mtm_status (*matrix)(const mtm_basis *basis, const mtm_illumination *illumination, double *matrix,
                          mtm_error *error);
-    /* The spectrum that coefficient `column` stands for; NULL for a kind without spectra. */
-    mtm_spectrum (*column)(const mtm_basis *basis, int column);
     bool needs_illumination;
+    bool has_encoder;  /* any spectrum can be encoded, not the scene's materials alone */
+    bool has_spectra;  /* coefficients stand for spectra: the columns */
+    bool has_products; /* coefficients multiply as spectra do (paper eq. 2) */
 } mtm_basis_kind;
 
 struct mtm_basis {
     const mtm_basis_kind *kind;
+    char name[32]; /* as files call it: "factors:7" */
     int dimension;
     int material_count;
     mtm_spectrum *reflectances;    /* the materials and, last, white */
+    mtm_spectrum *encoder;         /* coefficient i of a spectrum S is Σ encoder[i]·S over the grid */
+    mtm_spectrum *columns;         /* coefficients c stand for the spectrum Σ c[i]·columns[i] */
     mtm_illumination illumination; /* of kinds that need one */
 };
 
@@ -31,7 +38,7 @@ extern const mtm_basis_kind mtm_basis_materials;
 extern const mtm_basis_kind mtm_basis_wavelengths;
 extern const mtm_basis_kind mtm_basis_rgb;
 
-/* M(E) = X · CMFᵀ · diag(E) · B, the matrix of every kind whose coefficients stand for spectra. */
+/* M(E) = X · CMFᵀ · diag(E) · B, the matrix of every kind whose columns the light multiplies wavelength by wavelength. */
 mtm_status mtm_basis_light_columns(const mtm_basis *basis, const mtm_illumination *illumination,
                                    double *matrix, mtm_error *error);
 

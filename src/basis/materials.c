@@ -6,21 +6,18 @@
 
 #include "basis/kind.h"
 
-static int dimension(int material_count) {
-    return material_count + 1;
+static int dimension(int asked, int material_count) {
+    return asked == 0 ? material_count + 1 : 0;
 }
 
-static void encode(const mtm_basis *basis, int material, float *coefficients) {
-    memset(coefficients, 0, (size_t)basis->dimension * sizeof *coefficients);
-    coefficients[material] = 1;
-}
-
-static mtm_spectrum column(const mtm_basis *basis, int column) {
-    return basis->reflectances[column];
+static mtm_status prepare(mtm_basis *basis, mtm_error *error) {
+    (void)error;
+    memcpy(basis->columns, basis->reflectances, (size_t)basis->dimension * sizeof *basis->columns);
+    return MTM_OK;
 }
 
 const mtm_basis_kind mtm_basis_materials = {.name = "materials",
                                             .dimension = dimension,
-                                            .encode = encode,
-                                            .column = column,
-                                            .matrix = mtm_basis_light_columns};
+                                            .prepare = prepare,
+                                            .matrix = mtm_basis_light_columns,
+                                            .has_spectra = true};

@@ -5,16 +5,23 @@
 #include "base/fail.h"
 #include "basis/kind.h"
 
-static int dimension(int material_count) {
+static int dimension(int asked, int material_count) {
     (void)material_count;
-    return 3;
+    return asked == 0 ? 3 : 0;
 }
 
-static void encode(const mtm_basis *basis, int material, float *coefficients) {
-    const mtm_rgb color = mtm_illuminate(&basis->illumination, &basis->reflectances[material]);
-    coefficients[0] = (float)color.r;
-    coefficients[1] = (float)color.g;
-    coefficients[2] = (float)color.b;
+/* A color is linear in the reflectance: X · CMFᵀ · diag(E). */
+static mtm_status prepare(mtm_basis *basis, mtm_error *error) {
+    (void)error;
+    const mtm_illumination *own = &basis->illumination;
+    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
+        for (int channel = 0; channel < 3; channel++) {
+            const double *row = own->rgb_from_xyz[channel];
+            const double sensitivity = row[0] * own->observer.x.value[i] + row[1] * own->observer.y.value[i] +
+                                       row[2] * own->observer.z.value[i];
+            basis->encoder[channel].value[i] = own->light.value[i] * sensitivity;
+        }
+    return MTM_OK;
 }
 
 static bool is_same_spectrum(const mtm_spectrum *a, const mtm_spectrum *b) {
@@ -40,5 +47,9 @@ static mtm_status matrix(const mtm_basis *basis, const mtm_illumination *illumin
     return MTM_OK;
 }
 
-const mtm_basis_kind mtm_basis_rgb = {
-    .name = "rgb", .dimension = dimension, .encode = encode, .matrix = matrix, .needs_illumination = true};
+const mtm_basis_kind mtm_basis_rgb = {.name = "rgb",
+                                      .dimension = dimension,
+                                      .prepare = prepare,
+                                      .matrix = matrix,
+                                      .needs_illumination = true,
+                                      .has_encoder = true};

@@ -2,25 +2,24 @@
  * Basis "wavelengths": every sample of the grid, the reference the others are measured against. */
 #include "basis/kind.h"
 
-static int dimension(int material_count) {
+static int dimension(int asked, int material_count) {
     (void)material_count;
-    return MTM_SPECTRUM_SAMPLES;
+    return asked == 0 || asked == MTM_SPECTRUM_SAMPLES ? MTM_SPECTRUM_SAMPLES : 0;
 }
 
-static void encode(const mtm_basis *basis, int material, float *coefficients) {
-    const mtm_spectrum *reflectance = &basis->reflectances[material];
-    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++) coefficients[i] = (float)reflectance->value[i];
-}
-
-static mtm_spectrum column(const mtm_basis *basis, int column) {
-    (void)basis;
-    mtm_spectrum line = mtm_spectrum_constant(0);
-    line.value[column] = 1;
-    return line;
+static mtm_status prepare(mtm_basis *basis, mtm_error *error) {
+    (void)error;
+    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
+        basis->encoder[i].value[i] = basis->columns[i].value[i] = 1;
+    return MTM_OK;
 }
 
 const mtm_basis_kind mtm_basis_wavelengths = {.name = "wavelengths",
+                                              .dimensions = "81",
+                                              .plain_dimension = MTM_SPECTRUM_SAMPLES,
                                               .dimension = dimension,
-                                              .encode = encode,
-                                              .column = column,
-                                              .matrix = mtm_basis_light_columns};
+                                              .prepare = prepare,
+                                              .matrix = mtm_basis_light_columns,
+                                              .has_encoder = true,
+                                              .has_spectra = true,
+                                              .has_products = true};
