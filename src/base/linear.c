@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * Cholesky's factorisation, row by row (Golub, Van Loan: Matrix Computations), and 3×3 matrices by cofactors. */
+ * Cholesky's factorisation, row by row, Jacobi's rotations (both: Golub, Van Loan, Matrix Computations), and 3×3 matrices
+ * by cofactors. */
 #include "base/linear.h"
 
 #include <assert.h>
@@ -36,6 +37,49 @@ void mtm_cholesky_solve(int n, int stride, const double *factor, double *b) {
         const double *row = factor + (size_t)i * (size_t)stride;
         b[i] /= row[i];
         for (int j = 0; j < i; j++) b[j] -= row[j] * b[i];
+    }
+}
+
+/* The rotation by which the entry (p, q) becomes 0, its angle at most π/4. */
+static void rotate(int n, double *a, double *vectors, int p, int q) {
+    const double theta = (a[q * n + q] - a[p * n + p]) / (2 * a[p * n + q]);
+    const double tangent = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1));
+    const double cosine = 1 / sqrt(tangent * tangent + 1);
+    const double sine = tangent * cosine;
+    for (int k = 0; k < n; k++) {
+        const double kp = a[k * n + p];
+        const double kq = a[k * n + q];
+        a[k * n + p] = cosine * kp - sine * kq;
+        a[k * n + q] = sine * kp + cosine * kq;
+        const double vp = vectors[k * n + p];
+        const double vq = vectors[k * n + q];
+        vectors[k * n + p] = cosine * vp - sine * vq;
+        vectors[k * n + q] = sine * vp + cosine * vq;
+    }
+    for (int k = 0; k < n; k++) {
+        const double pk = a[p * n + k];
+        const double qk = a[q * n + k];
+        a[p * n + k] = cosine * pk - sine * qk;
+        a[q * n + k] = sine * pk + cosine * qk;
+    }
+}
+
+void mtm_symmetric_eigen(int n, double *matrix, double *vectors) {
+    enum { SWEEPS = 60 }; /* convergence is quadratic: a handful is usual */
+    double largest = 0;
+    for (int i = 0; i < n * n; i++) {
+        vectors[i] = i % (n + 1) == 0;
+        largest = fmax(largest, fabs(matrix[i]));
+    }
+    bool is_diagonal = false;
+    for (int sweep = 0; sweep < SWEEPS && !is_diagonal; sweep++) {
+        is_diagonal = true;
+        for (int p = 0; p < n; p++)
+            for (int q = p + 1; q < n; q++) {
+                if (fabs(matrix[p * n + q]) <= DBL_EPSILON * largest) continue;
+                rotate(n, matrix, vectors, p, q);
+                is_diagonal = false;
+            }
     }
 }
 

@@ -13,6 +13,11 @@ MTM_CHECK bool mtm_cholesky_factor(int n, int stride, double *matrix);
 /* Replaces the right-hand side b by the solution of L·Lᵀ x = b. */
 void mtm_cholesky_solve(int n, int stride, const double *factor, double *b);
 
+/* Eigenvalues and eigenvectors of the symmetric n×n `matrix`, row by row, by Jacobi's rotations: afterwards its
+ * diagonal holds the eigenvalues, in no order, and column j of `vectors` (n×n) the unit vector of the j-th. Errors are
+ * those of rounding the largest entry, so small eigenvalues beside large ones are known less well. */
+void mtm_symmetric_eigen(int n, double *matrix, double *vectors);
+
 /* A 3×3 matrix by value, m[row][column] (a pointer to an array cannot become const in C17). */
 typedef struct mtm_matrix3 {
     double m[3][3];

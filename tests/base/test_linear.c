@@ -55,6 +55,59 @@ static void a_matrix_that_is_not_positive_definite_is_refused(void **state) {
     assert_true(mtm_cholesky_factor(0, 0, &nothing));
 }
 
+static void eigenvectors_are_orthonormal_and_keep_their_direction(void **state) {
+    (void)state;
+    double padded[SIZE][STRIDE], full[SIZE][SIZE], matrix[SIZE * SIZE], vectors[SIZE * SIZE];
+    fill_positive_definite(padded, full);
+    for (int i = 0; i < SIZE * SIZE; i++) matrix[i] = full[i / SIZE][i % SIZE];
+    mtm_symmetric_eigen(SIZE, matrix, vectors);
+    for (int k = 0; k < SIZE; k++)
+        for (int i = 0; i < SIZE; i++) {
+            double image = 0;
+            double product = 0;
+            for (int j = 0; j < SIZE; j++) {
+                image += full[i][j] * vectors[j * SIZE + k];
+                product += vectors[j * SIZE + i] * vectors[j * SIZE + k];
+            }
+            assert_float_equal(image, matrix[k * SIZE + k] * vectors[i * SIZE + k], 1e-12);
+            assert_float_equal(product, i == k ? 1 : 0, 1e-13);
+        }
+}
+
+/* Entries of 0 on the diagonal, a diagonal matrix and one row: nothing to divide by. */
+static void eigenvalues_of_small_matrices_are_exact(void **state) {
+    (void)state;
+    double swap[4] = {0, 1, 1, 0}, diagonal[4] = {3, 0, 0, -2}, one = 5, vectors[4];
+    mtm_symmetric_eigen(2, swap, vectors);
+    assert_float_equal(swap[0], -swap[3], 1e-15);
+    assert_float_equal(fabs(swap[0]), 1, 1e-15);
+    mtm_symmetric_eigen(2, diagonal, vectors);
+    assert_true(diagonal[0] == 3 && diagonal[3] == -2 && vectors[0] == 1 && vectors[1] == 0);
+    mtm_symmetric_eigen(1, &one, vectors);
+    assert_true(one == 5 && vectors[0] == 1);
+}
+
+/* Rank 1 has eigenvalues 0 again and again; tiny entries must not underflow into being ignored. */
+static void eigenvalues_of_deficient_and_tiny_matrices_are_found(void **state) {
+    (void)state;
+    static const double scales[] = {1, 1e-170, 1e150};
+    for (int k = 0; k < 3; k++) {
+        double matrix[9], vectors[9];
+        const double line[3] = {1, 2, -2};
+        for (int i = 0; i < 9; i++) matrix[i] = scales[k] * line[i / 3] * line[i % 3];
+        mtm_symmetric_eigen(3, matrix, vectors);
+        double largest = 0;
+        double rest = 0;
+        for (int i = 0; i < 9; i++)
+            if (i % 4 == 0 && fabs(matrix[i]) > largest)
+                largest = fabs(matrix[i]);
+            else if (i % 4 != 0)
+                rest = fmax(rest, fabs(matrix[i]));
+        assert_true(fabs(largest / scales[k] - 9) < 1e-13);
+        assert_true(rest / scales[k] < 1e-13);
+    }
+}
+
 static void a_3x3_matrix_times_its_inverse_is_one(void **state) {
     (void)state;
     const mtm_matrix3 matrix = {
@@ -78,6 +131,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_positive_definite_system_is_solved),
         cmocka_unit_test(a_matrix_that_is_not_positive_definite_is_refused),
+        cmocka_unit_test(eigenvectors_are_orthonormal_and_keep_their_direction),
+        cmocka_unit_test(eigenvalues_of_small_matrices_are_exact),
+        cmocka_unit_test(eigenvalues_of_deficient_and_tiny_matrices_are_found),
         cmocka_unit_test(a_3x3_matrix_times_its_inverse_is_one),
         cmocka_unit_test(a_singular_3x3_matrix_has_no_inverse),
     };
