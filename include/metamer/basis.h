@@ -35,11 +35,11 @@ typedef struct mtm_basis mtm_basis;
 
 /* Makes the basis `name`:
  *   "materials"    d = m + 1: the m reflectances themselves and white; exact under every light
- *   "wavelengths"  d = 81: the grid; exact, the reference
+ *   "wavelengths"  d = 81: the grid; exact, the reference. "wavelengths:31": 400, 410 … 700 nm, linear between
  *   "rgb"          d = 3: colors under `illumination`; the plain renderer, cannot be relit
  *   "auto"         materials
  * for `material_count` reflectances (copied; 0 … 82). `illumination` is needed for "rgb" and may be NULL for the rest.
- * MTM_ARGUMENT for an unknown name, a ":d" where the kind takes none, and "rgb" without illumination; MTM_LIMIT for
+ * MTM_ARGUMENT for an unknown name, a dimension the kind does not have, and "rgb" without illumination; MTM_LIMIT for
  * too many materials; MTM_MEMORY. Release with mtm_basis_destroy (NULL allowed). */
 MTM_API MTM_CHECK mtm_status mtm_basis_create(const char *name, int material_count,
                                               const mtm_spectrum *reflectances,
@@ -47,13 +47,24 @@ MTM_API MTM_CHECK mtm_status mtm_basis_create(const char *name, int material_cou
                                               mtm_error *error);
 MTM_API void mtm_basis_destroy(mtm_basis *basis);
 
-MTM_API const char *mtm_basis_name(const mtm_basis *basis); /* never "auto" */
-MTM_API int mtm_basis_dimension(const mtm_basis *basis);    /* d */
+MTM_API const char *
+mtm_basis_name(const mtm_basis *basis); /* with its dimension where it has several; never "auto" */
+MTM_API int mtm_basis_dimension(const mtm_basis *basis); /* d */
 MTM_API int mtm_basis_material_count(const mtm_basis *basis);
 
 /* The d coefficients of material 0 … m-1, and of the perfect white reflector (for highlights). */
 MTM_API void mtm_basis_encode_material(const mtm_basis *basis, int material, float *coefficients);
 MTM_API void mtm_basis_encode_white(const mtm_basis *basis, float *coefficients);
+
+/* The d coefficients of any reflectance or light. MTM_ARGUMENT from "materials", which only holds the scene's own. */
+MTM_API MTM_CHECK mtm_status mtm_basis_encode(const mtm_basis *basis, const mtm_spectrum *spectrum,
+                                              double *coefficients, mtm_error *error);
+
+/* The d coefficients of the product of two spectra from theirs (paper eq. 2: coefficient by coefficient): a light
+ * through a filter, or light reflected twice. `product` may be `a` or `b`. White, all ones, changes nothing.
+ * MTM_ARGUMENT from "materials" and "rgb", whose coefficients do not multiply. */
+MTM_API MTM_CHECK mtm_status mtm_basis_multiply(const mtm_basis *basis, const double *a, const double *b,
+                                                double *product, mtm_error *error);
 
 /* M(E): 3 rows of d, to linear sRGB. MTM_ARGUMENT from "rgb" under any other illumination than its own, with the
  * reason. */

@@ -27,7 +27,8 @@ static request choose_kind(int material_count) {
 
 static int parse_dimension(const char *text) {
     const size_t digits = strspn(text, "0123456789");
-    return digits == 0 || digits > 3 || text[digits] != '\0' ? -1 : atoi(text);
+    const int value = digits == 0 || digits > 3 || text[digits] != '\0' ? 0 : atoi(text);
+    return value > 0 ? value : -1;
 }
 
 static request find_kind(const char *name, int material_count) {
@@ -153,6 +154,23 @@ void mtm_basis_encode_white(const mtm_basis *basis, float *coefficients) {
     encode_reflectance(basis, basis->material_count, coefficients);
 }
 
+mtm_status mtm_basis_encode(const mtm_basis *basis, const mtm_spectrum *spectrum, double *coefficients,
+                            mtm_error *error) {
+    if (!basis->kind->has_encoder)
+        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" encodes nothing but the scene's own materials",
+                        basis->name);
+    for (int i = 0; i < basis->dimension; i++) coefficients[i] = encode_one(basis, i, spectrum);
+    return MTM_OK;
+}
+
+mtm_status mtm_basis_multiply(const mtm_basis *basis, const double *a, const double *b, double *product,
+                              mtm_error *error) {
+    if (!basis->kind->has_products)
+        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" has no products; use wavelengths", basis->name);
+    for (int i = 0; i < basis->dimension; i++) product[i] = a[i] * b[i];
+    return MTM_OK;
+}
+
 mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illumination, double *matrix,
                             mtm_error *error) {
     return basis->kind->matrix(basis, illumination, matrix, error);
@@ -160,8 +178,7 @@ mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illu
 
 mtm_status mtm_basis_reconstruction(const mtm_basis *basis, float *rows, mtm_error *error) {
     if (!basis->kind->has_spectra)
-        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" holds no spectra to reconstruct",
-                        basis->kind->name);
+        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" holds no spectra to reconstruct", basis->name);
     for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
         for (int column = 0; column < basis->dimension; column++)
             rows[i * basis->dimension + column] = (float)basis->columns[column].value[i];

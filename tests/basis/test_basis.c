@@ -101,6 +101,12 @@ static void names_are_checked(void **state) {
                  "wavelengths");
     assert_fails(mtm_basis_create("materials:7", 1, reflectances, NULL, &basis, &error), MTM_ARGUMENT, error,
                  "no dimension");
+    static const char *const dimensions[] = {"wavelengths:30",        "wavelengths:",    "wavelengths:81x",
+                                             "wavelengths:-31",       "wavelengths: 31", "wavelengths:0",
+                                             "wavelengths:4294967327"};
+    for (size_t i = 0; i < sizeof dimensions / sizeof *dimensions; i++)
+        assert_fails(mtm_basis_create(dimensions[i], 1, reflectances, NULL, &basis, &error), MTM_ARGUMENT,
+                     error, "the dimension of");
     assert_fails(mtm_basis_create("rgb", 1, reflectances, NULL, &basis, &error), MTM_ARGUMENT, error,
                  "light");
     assert_fails(mtm_basis_create("auto", 90, reflectances, NULL, &basis, &error), MTM_LIMIT, error, "90");
@@ -110,6 +116,23 @@ static void names_are_checked(void **state) {
     assert_int_equal(mtm_basis_material_count(basis), 2);
     mtm_basis_destroy(basis);
     mtm_basis_destroy(NULL);
+}
+
+static void names_in_files_state_the_dimension(void **state) {
+    (void)state;
+    static const struct {
+        const char *asked, *name;
+        int dimension;
+    } cases[] = {{"materials", "materials", 4},
+                 {"wavelengths", "wavelengths", 81},
+                 {"wavelengths:81", "wavelengths", 81},
+                 {"wavelengths:31", "wavelengths:31", 31}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mtm_basis *basis = fixture_basis(cases[i].asked, NULL);
+        assert_string_equal(mtm_basis_name(basis), cases[i].name);
+        assert_int_equal(mtm_basis_dimension(basis), cases[i].dimension);
+        mtm_basis_destroy(basis);
+    }
 }
 
 static void the_largest_palette_fits_the_lanes(void **state) {
@@ -152,6 +175,7 @@ int main(void) {
         cmocka_unit_test(reconstruction_times_coefficients_is_the_reflectance),
         cmocka_unit_test(rgb_is_the_color_under_its_own_light_and_refuses_others),
         cmocka_unit_test(names_are_checked),
+        cmocka_unit_test(names_in_files_state_the_dimension),
         cmocka_unit_test(the_largest_palette_fits_the_lanes),
         cmocka_unit_test(lanes_are_4_8_16_or_the_next_multiple_of_4),
         cmocka_unit_test(adaptation_makes_white_white_under_every_light),
