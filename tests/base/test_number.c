@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "base/number.h"
 
-#include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "test.h"
+#include "comma_locale.h"
 
-static void a_number_is_read_whatever_the_locale(void **state) {
+static void a_number_is_read_and_written_whatever_the_locale(void **state) {
     (void)state;
     double value = 0;
-    (void)setlocale(LC_ALL, "de_DE.UTF-8"); /* where installed, the decimal mark is a comma */
+    char text[MTM_NUMBER_TEXT];
+    if (!enter_comma_locale()) skip();
     assert_true(mtm_number_parse(" 1.5e2 ", &value));
-    (void)setlocale(LC_ALL, "C");
+    (void)mtm_number_format(0.25, text);
+    leave_comma_locale();
     assert_float_equal(value, 150.0, 0.0);
+    assert_string_equal(text, "0.25");
 }
 
 static void text_that_is_no_number_is_refused(void **state) {
@@ -49,7 +51,7 @@ static void formatted_numbers_read_back_as_the_same_double(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_number_is_read_whatever_the_locale),
+        cmocka_unit_test(a_number_is_read_and_written_whatever_the_locale),
         cmocka_unit_test(text_that_is_no_number_is_refused),
         cmocka_unit_test(an_integer_beyond_int_is_refused),
         cmocka_unit_test(formatted_numbers_read_back_as_the_same_double),

@@ -2,6 +2,7 @@
  * The whole way from measured reflectances to encoded sRGB, against the tables of tests/data/expected/. */
 #include <math.h>
 
+#include "comma_locale.h"
 #include "expected.h"
 #include "metamer/color.h"
 
@@ -126,5 +127,5 @@ int main(void) {
         cmocka_unit_test(the_colorchecker_under_fl11_has_the_expected_colors),
         cmocka_unit_test(a_chart_at_10_nm_has_the_expected_colors),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, NULL) + run_group_in_comma_locale(tests);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include <locale.h>
 #include <sys/stat.h>
 
+#include "comma_locale.h"
 #include "metamer/volume.h"
 #include "scratch.h"
 
@@ -40,7 +40,7 @@ static void every_type_encoding_and_order_comes_back(void **state) {
 
 static void every_grid_comes_back_bit_for_bit(void **state) {
     (void)state;
-    (void)setlocale(LC_ALL, "de_DE.UTF-8"); /* where installed, the decimal mark is a comma */
+    (void)enter_comma_locale();
     mtm_grid grids[5];
     for (int n = 0; n < 5; n++) grids[n] = mtm_grid_defaults(2, 2, 2);
     for (int axis = 0; axis < 3; axis++) grids[1].axes[axis][axis] = 0.1 * (axis + 1);
@@ -59,7 +59,7 @@ static void every_grid_comes_back_bit_for_bit(void **state) {
         assert_round_trip(volume, "a.nrrd", &options);
         mtm_volume_destroy(volume);
     }
-    (void)setlocale(LC_ALL, "C");
+    leave_comma_locale();
 }
 
 static void a_volume_of_several_chunks_comes_back(void **state) {
