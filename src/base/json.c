@@ -102,6 +102,12 @@ bool mtm_json_can_hold(const char *text, size_t byte_count) {
     return can_hold;
 }
 
+size_t mtm_json_prefix(const char *text, size_t byte_max) {
+    size_t length = strnlen(text, byte_max);
+    while (length > 0 && !mtm_json_can_hold(text, length)) length--;
+    return length;
+}
+
 const char *mtm_json_preview(const json_t *value, char buffer[64]) {
     char *text = json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(10));
     (void)snprintf(buffer, 64, "%.57s%s", text == NULL ? "?" : text,

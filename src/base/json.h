@@ -75,6 +75,9 @@ bool mtm_json_choice(mtm_json_reader *reader, const json_t *object, const char *
 /* Whether a document can hold the first `byte_count` bytes of the text: they are UTF-8. */
 bool mtm_json_can_hold(const char *text, size_t byte_count);
 
+/* As many first bytes of the text as a document can hold, at most `byte_max`; 0 where its beginning is not UTF-8. */
+size_t mtm_json_prefix(const char *text, size_t byte_max);
+
 /* A value for a message, at most about 60 characters: `"cubic"`, `[1,2]`. */
 const char *mtm_json_preview(const json_t *value, char buffer[64]);
 

@@ -154,8 +154,7 @@ mtm_status mtm_scene_override_palette(mtm_scene *scene, const mtm_palette *palet
 
 /* As much of the name as a palette and its document can hold. */
 static void set_light_name(const char *name, mtm_light *light) {
-    size_t length = strlen(name) < MTM_NAME_MAX ? strlen(name) : MTM_NAME_MAX;
-    while (length > 0 && !mtm_json_can_hold(name, length)) length--;
+    const size_t length = mtm_json_prefix(name, MTM_NAME_MAX);
     (void)snprintf(light->name, sizeof light->name, "%.*s", length > 0 ? (int)length : 10,
                    length > 0 ? name : "illuminant");
 }
