@@ -25,17 +25,27 @@ typedef struct mtm_lab {
     double l, a, b;
 } mtm_lab;
 
-/* Three sensitivity curves on the grid. */
+/* Three sensitivity curves on the grid: x̄, ȳ, z̄ of an observer, or red, green, blue of a camera. */
 typedef struct mtm_observer {
     char name[64];
     mtm_spectrum x, y, z;
+    bool is_camera; /* its responses are linear red, green, blue and no XYZ */
 } mtm_observer;
 
-/* The observer of that name ("cie1931", the CIE 1931 2° standard observer, from CIE 018). MTM_ARGUMENT for an
- * unknown name lists the known ones. */
+/* The observer of that name, from tables of the CIE: "cie1931" (2°) and "cie1964" (10°), the standard observers of
+ * CIE 018; "cie2015" (2°) and "cie2015_10deg", from the cone fundamentals of CIE 170-2:2015. MTM_ARGUMENT for an
+ * unknown name lists the known ones; MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_observer_get(const char *name, mtm_observer *observer, mtm_error *error);
 
-/* Plain sums over the grid, no normalisation: x = Σ stimulus·x̄ and so on. */
+/* Reads an observer from a CSV table as mtm_spectrum_table_read does, with exactly three columns in any order, letter
+ * case ignored: x_bar, y_bar, z_bar (or x, y, z) are an observer's, R, G, B (or red, green, blue) a camera's. Its
+ * name is the file's without ".csv", "observer" where that is not UTF-8; of a long one as much as fits is kept.
+ * Errors (each names the file): those of mtm_spectrum_table_read; MTM_FORMAT for other columns, and for curves that
+ * cannot work: one whose sum over the grid is not positive, ȳ or green with a sum outside 1e-30 … 1e30, or values
+ * above a million times that sum. */
+MTM_API MTM_CHECK mtm_status mtm_observer_read(const char *path, mtm_observer *observer, mtm_error *error);
+
+/* Plain sums over the grid, no normalisation: x = Σ stimulus·x̄ and so on; a camera's are red, green and blue. */
 MTM_API mtm_xyz mtm_xyz_of(const mtm_spectrum *stimulus, const mtm_observer *observer);
 
 /* The light scaled so that its y is 1 on the perfect reflector. MTM_NUMERIC where its luminance is not positive

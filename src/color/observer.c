@@ -15,6 +15,9 @@ static const struct {
     const char *table;
 } observers[] = {
     {"cie1931", "cie_observer_1931_2deg"},
+    {"cie1964", "cie_observer_1964_10deg"},
+    {"cie2015", "cie_observer_2015_2deg"},
+    {"cie2015_10deg", "cie_observer_2015_10deg"},
 };
 enum { OBSERVER_COUNT = sizeof observers / sizeof *observers };
 
@@ -33,6 +36,7 @@ mtm_status mtm_observer_get(const char *name, mtm_observer *observer, mtm_error 
     while (found < OBSERVER_COUNT && strcmp(observers[found].name, name) != 0) found++;
     if (found == OBSERVER_COUNT) return fail_unknown(name, error);
     (void)snprintf(observer->name, sizeof observer->name, "%s", observers[found].name);
+    observer->is_camera = false;
     const char *table = observers[found].table;
     mtm_status status = mtm_embedded_column(table, "x_bar", MTM_KIND_OBSERVER, &observer->x, error);
     if (status == MTM_OK)
