@@ -76,8 +76,8 @@ MTM_API mtm_lab mtm_lab_from_xyz(mtm_xyz xyz, mtm_xyz white);
 MTM_API double mtm_ciede2000(mtm_lab a, mtm_lab b);
 
 /* The 3×3 matrix, row by row, that adapts XYZ from one white to another (Bradford, linear). Both whites have
- * y > 0; the first has no cone response of 0. A nearly monochromatic light may have negative ones, whose adaptation
- * maps white to white but means little elsewhere. */
+ * y > 0. A nearly monochromatic light may have negative cone responses, whose adaptation maps white to white but means
+ * little elsewhere; a response of 0 cannot be scaled and is left as it is. */
 MTM_API void mtm_bradford(mtm_xyz from_white, mtm_xyz to_white, double matrix[3][3]);
 
 /* The smoothest reflectance (least sum of squared steps between neighbours) with 0 ≤ ρ ≤ 1 that shows the linear

@@ -116,9 +116,8 @@ void mtm_bradford(mtm_xyz from_white, mtm_xyz to_white, double matrix[3][3]) {
     mtm_matrix3 scaled = bradford_cones;
     for (int i = 0; i < 3; i++) {
         const double from = apply_row(bradford_cones.m[i], from_white.x, from_white.y, from_white.z);
-        assert(from != 0);
         const double to = apply_row(bradford_cones.m[i], to_white.x, to_white.y, to_white.z);
-        for (int j = 0; j < 3; j++) scaled.m[i][j] *= to / from;
+        for (int j = 0; j < 3 && from != 0; j++) scaled.m[i][j] *= to / from;
     }
     const mtm_matrix3 product = mtm_matrix3_multiply(inverse_of(bradford_cones), scaled);
     memcpy(matrix, product.m, sizeof product.m);

@@ -132,6 +132,19 @@ static void bradford_maps_white_to_white(void **state) {
     assert_xyz(apply(same, color), color, 1e-14);
 }
 
+/* The second cone does not see this white. */
+static void bradford_leaves_a_cone_without_response_alone(void **state) {
+    (void)state;
+    const double cone[3] = {-0.7502, 1.7135, 0.0367};
+    const mtm_xyz color = {0.2, 0.3, 0.4};
+    double matrix[3][3];
+    mtm_bradford((mtm_xyz){1.7135, 0.7502, 0}, mtm_white_d65(), matrix);
+    const mtm_xyz adapted = apply(matrix, color);
+    const double before = cone[0] * color.x + cone[1] * color.y + cone[2] * color.z;
+    const double after = cone[0] * adapted.x + cone[1] * adapted.y + cone[2] * adapted.z;
+    assert_true(fabs(after - before) < 1e-14);
+}
+
 /* D50 to D65, as published for ICC profiles (B. Lindbloom) from whites to five digits. */
 static void bradford_has_its_published_matrix(void **state) {
     (void)state;
@@ -156,6 +169,7 @@ int main(void) {
         cmocka_unit_test(lab_is_smooth_where_its_branches_meet),
         cmocka_unit_test(lab_under_a_light_without_blue_is_finite),
         cmocka_unit_test(bradford_maps_white_to_white),
+        cmocka_unit_test(bradford_leaves_a_cone_without_response_alone),
         cmocka_unit_test(bradford_has_its_published_matrix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
