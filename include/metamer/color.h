@@ -87,6 +87,35 @@ MTM_API void mtm_bradford(mtm_xyz from_white, mtm_xyz to_white, double matrix[3]
  * bounded reflectance has that color (none of the cube is known); MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_reflectance_of_rgb(mtm_rgb rgb, mtm_spectrum *reflectance, mtm_error *error);
 
+/* The point of the Planckian locus nearest to a light's chromaticity. */
+typedef struct mtm_color_temperature_result {
+    double kelvin; /* correlated color temperature, 1000 … 100000 */
+    double duv;    /* distance from the locus in CIE 1960 (u, v), positive above it */
+} mtm_color_temperature_result;
+
+/* The correlated color temperature of a light (CIE 015:2018) for the CIE 1931 observer, with mtm_blackbody's c2 and
+ * sums over the grid. MTM_NUMERIC with the reason where there is none: no luminance, a chromaticity farther than 0.05
+ * from the locus, where the CIE gives the quantity no meaning, or a nearest black body below 1000 K or above
+ * 100000 K, where the locus hardly moves any more. */
+MTM_API MTM_CHECK mtm_status mtm_color_temperature(const mtm_spectrum *light,
+                                                   mtm_color_temperature_result *result, mtm_error *error);
+
+enum { MTM_TEST_COLORS = 14 };
+
+/* How alike colors look under a light and under its reference; 100 is the same, and much worse than 0 is possible. */
+typedef struct mtm_color_rendering_result {
+    mtm_color_temperature_result temperature;
+    double special[MTM_TEST_COLORS]; /* R1 … R14 */
+    double general;                  /* Ra, the mean of R1 … R8 */
+} mtm_color_rendering_result;
+
+/* The color rendering indices of CIE 13.3-1995: test colors TCS01 … TCS14, a von Kries adaptation, differences in
+ * U*V*W*. The reference has the light's correlated color temperature: a black body below 5000 K, daylight from there
+ * on. The standard asks for a light within 5.4e-3 of its reference in (u, v); others are computed as well. MTM_NUMERIC
+ * where the light has no color temperature, or one above 25000 K, for which the CIE defines no daylight; MTM_MEMORY. */
+MTM_API MTM_CHECK mtm_status mtm_color_rendering(const mtm_spectrum *light,
+                                                 mtm_color_rendering_result *result, mtm_error *error);
+
 #ifdef __cplusplus
 }
 #endif
