@@ -13,11 +13,18 @@ extern "C" {
 typedef struct mtm_illumination {
     mtm_spectrum light; /* intensity · Σ wᵢEᵢ, each Eᵢ with Y = 1 on the perfect reflector */
     mtm_observer observer;
-    double rgb_from_xyz[3][3]; /* XYZ (Y = 1 for white) to linear sRGB, with or without adaptation */
+    double rgb_from_xyz[3][3]; /* from the observer's sums (XYZ, or a camera's responses) to linear sRGB */
 } mtm_illumination;
 
-/* Fills an illumination. `is_adapted` maps the light's own white to sRGB's D65 (Bradford), so that white looks
- * white under every light; a light without luminance is left unadapted. */
+/* Fills an illumination for a light whose amount is its CIE 1931 luminance, as in palettes, whoever looks; the sum of
+ * the observer's y over the grid is positive.
+ *   An observer's XYZ become linear sRGB. They are multiplied with a fixed exposure that makes y 1 on the perfect
+ * reflector under equal-energy light of luminance 1 (for CIE 1931 it is 1). `is_adapted` maps the light's own white to
+ * sRGB's D65 (Bradford) at the light's luminance, so that white looks white under every light.
+ *   A camera's responses are shown raw, as linear red, green, blue: rgb_from_xyz is the same kind of exposure, which
+ * makes green 1, times the identity. `is_adapted` scales each channel so that white is neutral at the light's luminance.
+ *   Exposures know no light, so without adaptation the picture under a mix of lights is the mix of the pictures. A light
+ * without luminance is left unadapted, and so is a camera's channel that does not see it. */
 MTM_API mtm_illumination mtm_illumination_of(const mtm_spectrum *light, const mtm_observer *observer,
                                              bool is_adapted);
 
