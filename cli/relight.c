@@ -13,7 +13,8 @@ static const command_option options[] = {
      "a light that the palette need not know: D65, FL11, a measured one"},
     {"--stop", "NAME", "a mix that the scene keeps under this name"},
     {"--palette", "NEW.json", "new reflectances (basis materials) and lights, by name"},
-    {"--observer", "NAME", "cie1931"},
+    {"--observer", "NAME|FILE.csv",
+     "cie1931, cie1964, cie2015, cie2015_10deg, or curves of an eye or a camera"},
     {"--intensity", "X", "brightness of the light, default as in the scene"},
     {"--background", "HEX|none", "a color such as 202020 behind the picture; none keeps transparency"},
     {"--threads", "N", "default: all processors"},
@@ -93,29 +94,18 @@ static mtm_status take_palette(const char *path, mtm_scene *scene, mtm_error *er
     return status;
 }
 
-/* "FILE.csv:COLUMN" is a file, anything else a CIE name. */
-static mtm_status take_illuminant(const char *name, mtm_scene *scene, mtm_error *error) {
+static mtm_status take_illuminant(const char *text, mtm_scene *scene, mtm_error *error) {
     mtm_spectrum light;
-    mtm_spectrum normalized;
-    mtm_observer observer;
-    const mtm_status found = strchr(name, ':') != NULL
-                                 ? mtm_spectrum_read(".", name, MTM_KIND_LIGHT, &light, error)
-                                 : mtm_illuminant(name, &light, error);
-    if (found != MTM_OK) return found;
-    mtm_status status = mtm_observer_get("cie1931", &observer, error);
-    if (status == MTM_OK) status = mtm_light_normalize(&light, &observer, &normalized, error);
-    return status == MTM_OK ? mtm_scene_use_light(scene, name, &light, error) : status;
+    const mtm_status status = open_illuminant(text, &light, error);
+    return status == MTM_OK ? mtm_scene_use_light(scene, text, &light, error) : status;
 }
 
 static mtm_status take_stop(const char *name, mtm_scene *scene, mtm_error *error) {
     return mtm_scene_use_stop(scene, name, error);
 }
 
-static mtm_status take_observer(const char *name, mtm_scene *scene, mtm_error *error) {
-    mtm_observer observer;
-    const mtm_status status = mtm_observer_get(name, &observer, error);
-    if (status == MTM_OK) (void)snprintf(scene->observer, sizeof scene->observer, "%s", name);
-    return status;
+static mtm_status take_observer(const char *name_or_file, mtm_scene *scene, mtm_error *error) {
+    return open_observer(name_or_file, &scene->observer, error);
 }
 
 static mtm_status take_lights(const relight_request *request, mtm_scene *scene, mtm_error *error) {

@@ -143,6 +143,20 @@ mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **sce
     return status == MTM_OK ? mtm_scene_load_volume(*scene, volume_path, volume, error) : status;
 }
 
+mtm_status open_illuminant(const char *text, mtm_spectrum *light, mtm_error *error) {
+    mtm_observer observer;
+    mtm_spectrum normalized;
+    mtm_status status = strchr(text, ':') != NULL ? mtm_spectrum_read(".", text, MTM_KIND_LIGHT, light, error)
+                                                  : mtm_illuminant(text, light, error);
+    if (status == MTM_OK) status = mtm_observer_get("cie1931", &observer, error);
+    return status == MTM_OK ? mtm_light_normalize(light, &observer, &normalized, error) : status;
+}
+
+mtm_status open_observer(const char *name_or_file, mtm_observer *observer, mtm_error *error) {
+    return has_extension(name_or_file, ".csv") ? mtm_observer_read(name_or_file, observer, error)
+                                               : mtm_observer_get(name_or_file, observer, error);
+}
+
 mtm_status check_output(const char *path, mtm_error *error) {
     char *target = realpath(path, NULL); /* of a link, the file behind it is replaced */
     char *folder = folder_of(target == NULL ? path : target);

@@ -37,6 +37,14 @@ bool has_extension(const char *path, const char *extension);
 mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **scene, mtm_volume **volume,
                       mtm_error *error);
 
+/* The light "FILE.csv:COLUMN" is, or the illuminant of that name. MTM_NUMERIC where it has no luminance, and the
+ * errors of mtm_spectrum_read and mtm_illuminant. */
+mtm_status open_illuminant(const char *text, mtm_spectrum *light, mtm_error *error);
+
+/* The observer or camera a file that ends in .csv holds, or the observer of that name; errors as mtm_observer_read and
+ * mtm_observer_get. */
+mtm_status open_observer(const char *name_or_file, mtm_observer *observer, mtm_error *error);
+
 /* MTM_IO where an output file cannot be written: worth knowing before long work. A file is replaced by a new one, so
  * its folder must allow that; a device or a pipe is written itself. */
 mtm_status check_output(const char *path, mtm_error *error);

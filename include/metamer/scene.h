@@ -58,7 +58,7 @@ typedef struct mtm_scene {
     mtm_background background;
     char background_srgb[8]; /* "#rrggbb" */
     int background_material;
-    char observer[64];
+    mtm_observer observer;
     bool is_white_adapted; /* "white": "light" */
     mtm_light_mix lights;
     int stop_count;
@@ -111,8 +111,7 @@ MTM_API MTM_CHECK mtm_status mtm_scene_override_palette(mtm_scene *scene, const 
                                                         mtm_error *error);
 
 /* The light, observer and display of the scene. */
-MTM_API MTM_CHECK mtm_status mtm_scene_illumination(const mtm_scene *scene, mtm_illumination *illumination,
-                                                    mtm_error *error);
+MTM_API mtm_illumination mtm_scene_illumination(const mtm_scene *scene);
 
 /* Renders the scene into a new spectral image that carries palette and scene. */
 MTM_API MTM_CHECK mtm_status mtm_scene_render(const mtm_scene *scene, const mtm_volume *volume,

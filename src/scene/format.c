@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * Writing a scene as a document that stands alone: every value stated, so that later defaults do not change it. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/file.h"
 #include "base/json.h"
@@ -87,6 +88,27 @@ static json_t *format_render(const mtm_scene *scene) {
     return object;
 }
 
+static bool is_same_curve(const mtm_spectrum *a, const mtm_spectrum *b) {
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+/* Whether the name alone leads to these curves; a file may have a known name and others. */
+static bool is_known_observer(const mtm_observer *observer) {
+    mtm_observer known;
+    return mtm_observer_get(observer->name, &known, NULL) == MTM_OK && !observer->is_camera &&
+           is_same_curve(&known.x, &observer->x) && is_same_curve(&known.y, &observer->y) &&
+           is_same_curve(&known.z, &observer->z);
+}
+
+static json_t *format_observer(const mtm_observer *observer) {
+    if (is_known_observer(observer)) return json_string(observer->name);
+    json_t *object = json_pack("{s:s}", "name", observer->name);
+    set(object, observer->is_camera ? "r" : "x", numbers(MTM_SPECTRUM_SAMPLES, observer->x.value));
+    set(object, observer->is_camera ? "g" : "y", numbers(MTM_SPECTRUM_SAMPLES, observer->y.value));
+    set(object, observer->is_camera ? "b" : "z", numbers(MTM_SPECTRUM_SAMPLES, observer->z.value));
+    return object;
+}
+
 /* Adds weights, intensity and dial to an object. */
 static void format_mix(const mtm_scene *scene, const mtm_light_mix *mix, json_t *object) {
     const mtm_palette *palette = &scene->palette;
@@ -133,7 +155,7 @@ char *mtm_scene_format(const mtm_scene *scene) {
     set(document, "clip", json_pack("{s:o}", "box", clip));
     set(document, "background", format_background(scene));
     set(document, "render", format_render(scene));
-    set(document, "observer", json_string(scene->observer));
+    set(document, "observer", format_observer(&scene->observer));
     set(document, "white", json_string(scene->is_white_adapted ? "light" : "none"));
     set(document, "lights", format_lights(scene));
     char *text = mtm_json_format(document, true);

@@ -7,26 +7,21 @@
 #include "base/memory.h"
 #include "scene/scene.h"
 
-mtm_status mtm_scene_illumination(const mtm_scene *scene, mtm_illumination *illumination, mtm_error *error) {
-    mtm_observer observer;
-    const mtm_status status = mtm_observer_get(scene->observer, &observer, error);
-    if (status != MTM_OK) return status;
+mtm_illumination mtm_scene_illumination(const mtm_scene *scene) {
     const mtm_spectrum light =
         mtm_palette_mix(&scene->palette, scene->lights.weights, scene->lights.intensity);
-    *illumination = mtm_illumination_of(&light, &observer, scene->is_white_adapted);
-    return MTM_OK;
+    return mtm_illumination_of(&light, &scene->observer, scene->is_white_adapted);
 }
 
 /* The basis `name` for the scene's materials under its light. */
 static mtm_status make_basis(const mtm_scene *scene, const char *name, mtm_basis **basis, mtm_error *error) {
     const mtm_palette *palette = &scene->palette;
-    mtm_illumination illumination;
-    mtm_status status = mtm_scene_illumination(scene, &illumination, error);
-    if (status != MTM_OK) return status;
+    const mtm_illumination illumination = mtm_scene_illumination(scene);
     mtm_spectrum *reflectances = mtm_allocate((size_t)palette->material_count, sizeof *reflectances);
     if (reflectances == NULL) return mtm_fail_memory(error, "the basis", sizeof *reflectances);
     for (int i = 0; i < palette->material_count; i++) reflectances[i] = palette->materials[i].reflectance;
-    status = mtm_basis_create(name, palette->material_count, reflectances, &illumination, basis, error);
+    const mtm_status status =
+        mtm_basis_create(name, palette->material_count, reflectances, &illumination, basis, error);
     free(reflectances);
     return status;
 }
@@ -131,11 +126,10 @@ static mtm_status check_reflectances(const mtm_scene *scene, const mtm_image *im
 
 static mtm_status make_matrix(const mtm_scene *scene, const mtm_image *image, double *matrix,
                               mtm_error *error) {
-    mtm_illumination illumination;
+    const mtm_illumination illumination = mtm_scene_illumination(scene);
     mtm_basis *basis = NULL;
     mtm_scene *rendered = NULL; /* "rgb" knows only the light it was rendered under */
     mtm_status status = check_reflectances(scene, image, error);
-    if (status == MTM_OK) status = mtm_scene_illumination(scene, &illumination, error);
     if (status == MTM_OK && strcmp(image->basis, "rgb") == 0)
         status = mtm_scene_of_image(image, scene->document, &rendered, error);
     if (status == MTM_OK)

@@ -325,15 +325,8 @@ static void read_render(mtm_scene_reader *reader, const json_t *document) {
 static void read_display(mtm_scene_reader *reader, const json_t *document) {
     static const char *const whites[] = {"none", "light"};
     mtm_json_reader *json = reader->json;
-    const char *name = NULL;
     int white = 0;
-    if (mtm_json_text(json, document, "observer", &name)) {
-        mtm_observer observer;
-        mtm_error reason;
-        if (mtm_observer_get(name, &observer, &reason) != MTM_OK)
-            mtm_json_fail(json, "observer", "is not usable: %s", reason.message);
-        (void)snprintf(reader->scene->observer, sizeof reader->scene->observer, "%s", name);
-    }
+    mtm_scene_read_observer(reader, document);
     if (mtm_json_choice(json, document, "white", KEYS(whites), &white))
         reader->scene->is_white_adapted = white == 1;
 }

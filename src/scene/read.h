@@ -20,6 +20,9 @@ typedef struct mtm_scene_reader {
 const json_t *mtm_scene_enter_object(mtm_json_reader *json, const json_t *parent, const char *key,
                                      const char *const *keys, size_t key_count, size_t *place);
 
+/* The key "observer" of the document. */
+void mtm_scene_read_observer(mtm_scene_reader *reader, const json_t *document);
+
 /* The key "lights" of the document, after the palette. */
 void mtm_scene_read_lights(mtm_scene_reader *reader, const json_t *document);
 

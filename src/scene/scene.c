@@ -58,9 +58,12 @@ mtm_status mtm_scene_create(const char *document, const char *folder, mtm_scene 
     made->render = mtm_render_defaults();
     (void)snprintf(made->renderer, sizeof made->renderer, "raycast");
     (void)snprintf(made->basis, sizeof made->basis, "auto");
-    (void)snprintf(made->observer, sizeof made->observer, "cie1931");
-    *scene = made;
-    return MTM_OK;
+    const mtm_status status = mtm_observer_get("cie1931", &made->observer, error);
+    if (status != MTM_OK)
+        mtm_scene_destroy(made);
+    else
+        *scene = made;
+    return status;
 }
 
 void mtm_scene_destroy(mtm_scene *scene) {

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """metamer relight: one spectral image, every light; compared with rendering again."""
+import json
+import pathlib
+import shutil
+
 import support
 
 NEW_MATERIALS = [{"name": "core", "srgb": "#20c040"}, {"name": "haze", "srgb": "#d0d0d0"}]
+DATA = pathlib.Path(__file__).resolve().parents[2] / "data/spectra"
 CSV = "wavelength_nm,green,line\n380,0,0\n500,1,0\n560,1,1\n600,0,0\n780,0,0\n"
 
 
@@ -74,6 +79,51 @@ class Relight(support.CliTest):
         self.succeed("relight", "image.exr", "-o", "lit.png", "--palette", "new.json", "--light", "sun=0.5")
         self.succeed("render", "lit.png", "-o", "again.png")
         self.assert_same_bytes("lit.png", "again.png")
+
+    def check_observer(self, option, in_scene):
+        scene = support.make_scene()
+        scene["observer"] = in_scene
+        self.render(scene, "direct.png")
+        self.succeed("relight", "image.exr", "-o", "lit.png", "--observer", option)
+        self.assert_near("direct.png", "lit.png", 1e-5)
+        self.succeed("relight", "image.exr", "-o", "usual.png")
+        self.assertGreater(self.json_of("compare", "usual.png", "lit.png")["max_error"], 0.005)
+        self.succeed("render", "lit.png", "-o", "again.png")
+        self.assert_same_bytes("lit.png", "again.png")
+
+    def test_another_observer_looks(self):
+        for name in ("cie1964", "cie2015", "cie2015_10deg"):
+            self.check_observer(name, name)
+            self.assertEqual(json.loads(support.embedded_scene(self.path("lit.png")))["observer"], name)
+
+    def test_a_camera_looks(self):
+        shutil.copy(DATA / "camera_nikon_d5100.csv", self.path("my camera.csv"))
+        self.check_observer("my camera.csv", {"file": "my camera.csv"})
+        observer = json.loads(support.embedded_scene(self.path("lit.png")))["observer"]
+        self.assertEqual((observer["name"], len(observer["r"])), ("my camera", 81))
+
+    def test_an_eye_from_a_table_is_that_observer(self):
+        shutil.copy(DATA / "cie_observer_1964_10deg.csv", self.path("eye.CSV"))
+        self.succeed("relight", "image.exr", "-o", "a.png", "--observer", "eye.CSV")
+        self.succeed("relight", "image.exr", "-o", "b.png", "--observer", "cie1964")
+        self.assert_near("a.png", "b.png", 0)
+
+    def test_files_that_are_no_observer_are_refused(self):
+        self.write_text("two.csv", "wavelength_nm,x,y\n500,1,1\n")
+        self.write_text("dark.csv", "wavelength_nm,R,G,B\n500,1,0,1\n")
+        self.write_text("binary.csv", "\0\1\2")
+        for name, texts in (("two.csv", ["two.csv", "x, y", "x_bar, y_bar, z_bar", "R, G, B"]),
+                            ("dark.csv", ["dark.csv", "curve g", "sum 0"]), ("binary.csv", ["binary.csv"]),
+                            ("missing.csv", ["missing.csv"]),
+                            (str(DATA / "cie_test_color_samples.csv"), ["14 columns", "TCS01"])):
+            self.refuse("relight", "image.exr", "-o", "no.png", "--observer", name, texts=["--observer", *texts])
+
+    def test_an_embedded_observer_names_no_file(self):
+        self.succeed("relight", "image.exr", "-o", "lit.png")
+        scene = json.loads(support.embedded_scene(self.path("lit.png")))
+        scene["observer"] = {"file": "eye.csv"}
+        support.embed_scene(self.path("lit.png"), self.path("forged.png"), json.dumps(scene))
+        self.refuse("render", "forged.png", "-o", "no.png", texts=["observer.file", "embedded"])
 
     def test_a_background_color(self):
         scene = support.make_scene()
@@ -190,7 +240,7 @@ class Relight(support.CliTest):
         for options, texts in (
                 (("--light", "lamb=1"), ["--light", "lamb"]), (("--stop", "noon"), ["--stop", "noon"]),
                 (("--illuminant", "D66"), ["--illuminant", "D66", "D65"]),
-                (("--observer", "cie1964"), ["--observer", "cie1964"]),
+                (("--observer", "cie1965"), ["--observer", "cie1965", "cie1964"]),
                 (("--illuminant", "lamps.csv:none"), ["lamps.csv", "none", "line"]),
                 (("--illuminant", "missing.csv:green"), ["missing.csv"]),
                 (("--palette", "missing.json"), ["missing.json"]),

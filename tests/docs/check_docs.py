@@ -49,7 +49,7 @@ class Docs(unittest.TestCase):
 
     def test_every_key_of_the_readers_is_described(self):
         described = set(re.findall(r'[`"]([a-z0-9_]+)[`"]', SCENE_MANUAL))
-        for name in ("src/scene/read.c", "src/scene/read_lights.c", "src/palette/json.c"):
+        for name in ("src/scene/read.c", "src/scene/read_lights.c", "src/scene/read_observer.c", "src/palette/json.c"):
             text = (SOURCE / name).read_text(encoding="utf-8")
             lists = re.findall(r"(?:keys|reserved|names|blends|whites)\[\] = \{(.*?)\};", text, re.DOTALL)
             self.assertGreater(len(lists), 2)

@@ -16,12 +16,11 @@ static mtm_scene *read_example(const char *path) {
 /* CIELAB (against D65) of a material as a picture shows it, clipped, under one light alone. */
 static mtm_lab look(mtm_scene *scene, const char *material, const char *light) {
     mtm_error error;
-    mtm_illumination illumination;
     const int index = mtm_palette_find_material(&scene->palette, material);
     assert_true(index >= 0);
     mtm_scene_clear_weights(scene);
     assert_ok(mtm_scene_set_weight(scene, light, 1, &error), error);
-    assert_ok(mtm_scene_illumination(scene, &illumination, &error), error);
+    const mtm_illumination illumination = mtm_scene_illumination(scene);
     const mtm_rgb rgb = mtm_illuminate(&illumination, &scene->palette.materials[index].reflectance);
     const mtm_rgb shown = {fmin(fmax(rgb.r, 0), 1), fmin(fmax(rgb.g, 0), 1), fmin(fmax(rgb.b, 0), 1)};
     return mtm_lab_from_xyz(mtm_xyz_from_rgb(shown), mtm_white_d65());

@@ -2,6 +2,8 @@
  * The scene document and the two halves it drives; what the command line does with bad documents is tested there. */
 #include "metamer/scene.h"
 
+#include <stdio.h>
+
 #include "fixture.h"
 
 static const char full[] =
@@ -102,6 +104,139 @@ static void a_written_scene_reads_back_as_the_same_text(void **state) {
     mtm_text_free(second);
     mtm_scene_destroy(scene);
     mtm_scene_destroy(again);
+}
+
+/* A small scene whose observer is this. */
+static mtm_status parse_observer(const char *observer, const char *folder, mtm_scene **scene,
+                                 mtm_error *error) {
+    static const char form[] =
+        "{\"volume\": {\"file\": \"v.nrrd\"}, \"transfer\": {\"points\": [{\"value\": 1,"
+        " \"opacity\": 0.5, \"material\": \"middle\"}]}, \"observer\": %s}";
+    const size_t size = sizeof form + strlen(observer);
+    char *text = malloc(size);
+    assert_non_null(text);
+    (void)snprintf(text, size, form, observer);
+    const mtm_status status = mtm_scene_parse("test.json", text, folder, scene, error);
+    free(text);
+    return status;
+}
+
+/* Written and read back as an embedded document: the same observer, and the same text. */
+static void assert_observer_travels(const mtm_scene *scene) {
+    mtm_error error;
+    mtm_scene *again = NULL;
+    char *first = mtm_scene_format(scene);
+    assert_ok(mtm_scene_parse("again.json", first, NULL, &again, &error), error);
+    char *second = mtm_scene_format(again);
+    assert_string_equal(first, second);
+    assert_string_equal(again->observer.name, scene->observer.name);
+    assert_int_equal(again->observer.is_camera, scene->observer.is_camera);
+    assert_memory_equal(&again->observer.x, &scene->observer.x, sizeof scene->observer.x);
+    assert_memory_equal(&again->observer.y, &scene->observer.y, sizeof scene->observer.y);
+    assert_memory_equal(&again->observer.z, &scene->observer.z, sizeof scene->observer.z);
+    mtm_text_free(first);
+    mtm_text_free(second);
+    mtm_scene_destroy(again);
+}
+
+static void observers_travel_by_name_or_with_their_curves(void **state) {
+    (void)state;
+    static const struct {
+        const char *observer, *folder, *name, *text; /* as given; then as written */
+        bool is_camera;
+    } cases[] = {
+        {"\"cie1964\"", NULL, "cie1964", "\"observer\": \"cie1964\"", false},
+        {"{\"file\": \"camera_arri_d21.csv\"}", METAMER_SOURCE_DIR "/data/spectra", "camera_arri_d21",
+         "\"r\": [0.0001", true},
+        {"{\"file\": \"cie_observer_2015_2deg.csv\"}", METAMER_SOURCE_DIR "/data/spectra",
+         "cie_observer_2015_2deg", "\"x\": [0", false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mtm_error error;
+        mtm_scene *scene = NULL;
+        assert_ok(parse_observer(cases[i].observer, cases[i].folder, &scene, &error), error);
+        assert_string_equal(scene->observer.name, cases[i].name);
+        assert_int_equal(scene->observer.is_camera, cases[i].is_camera);
+        assert_observer_travels(scene);
+        char *text = mtm_scene_format(scene);
+        assert_non_null(strstr(text, cases[i].text));
+        assert_null(strstr(text, ".csv"));
+        mtm_text_free(text);
+        mtm_scene_destroy(scene);
+    }
+}
+
+/* A table called as a known observer: its name must not stand for the curves. */
+static void curves_with_a_known_name_are_kept(void **state) {
+    (void)state;
+    mtm_error error;
+    mtm_scene *scene = NULL;
+    assert_ok(parse_observer("\"cie1931\"", NULL, &scene, &error), error);
+    scene->observer.z.value[7] *= 1.5;
+    assert_observer_travels(scene);
+    assert_ok(mtm_observer_get("cie1931", &scene->observer, &error), error);
+    scene->observer.is_camera = true;
+    assert_observer_travels(scene);
+    mtm_scene_destroy(scene);
+}
+
+static void observers_that_cannot_be_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *observer, *message;
+        mtm_status status;
+    } cases[] = {
+        {"5", "observer is 5, must be a name or an object", MTM_FORMAT},
+        {"null", "observer is null, must be a name or an object", MTM_FORMAT},
+        {"\"cie1932\"", "observer is not usable: unknown observer 'cie1932', expected one of: cie1931,",
+         MTM_FORMAT},
+        {"{}", "observer.name is missing", MTM_FORMAT},
+        {"{\"name\": \"n\", \"x\": [1]}", "observer.x is [1], must be an array of 81 numbers", MTM_FORMAT},
+        {"{\"name\": \"0123456789012345678901234567890123456789012345678901234567890123\"}",
+         "observer.name has 64 bytes, at most 63 are allowed", MTM_FORMAT},
+        {"{\"nmae\": \"n\"}", "observer.nmae is not a known key; the nearest is \"name\"", MTM_FORMAT},
+        {"{\"name\": \"n\", \"r\": [], \"x\": []}", "observer.x is not a known key", MTM_FORMAT},
+        {"{\"file\": \"a.csv\", \"name\": \"n\"}",
+         "observer.name is not a known key; the nearest is \"file\"", MTM_FORMAT},
+        {"{\"file\": 5}", "observer.file is 5", MTM_FORMAT},
+        {"{\"file\": \"nowhere.csv\"}", "observer.file is not usable: ./nowhere.csv", MTM_IO},
+    };
+    mtm_error error;
+    mtm_scene *scene = NULL;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_fails(parse_observer(cases[i].observer, ".", &scene, &error), cases[i].status, error,
+                     cases[i].message);
+    assert_fails(parse_observer("{\"file\": \"nowhere.csv\"}", NULL, &scene, &error), MTM_FORMAT, error,
+                 "observer.file names a file, but an embedded document stands alone");
+}
+
+/* Curves from a document meet the same conditions as those from a table. */
+static void inlined_curves_are_checked(void **state) {
+    (void)state;
+    static const char *const letters = "xyz";
+    mtm_error error;
+    mtm_scene *scene = NULL;
+    for (int missing = 0; missing <= 3; missing++) { /* the curve without a sum; 3: none */
+        char text[2048] = "{\"name\": \"eye\"";
+        for (int k = 0; k < 3; k++) {
+            size_t length = strlen(text);
+            length += (size_t)snprintf(text + length, sizeof text - length, ", \"%c\": [%d", letters[k],
+                                       k != missing);
+            for (int i = 1; i < MTM_SPECTRUM_SAMPLES; i++)
+                length += (size_t)snprintf(text + length, sizeof text - length, ",0");
+            (void)snprintf(text + length, sizeof text - length, "]%s", k == 2 ? "}" : "");
+        }
+        char expected[64];
+        (void)snprintf(expected, sizeof expected, "observer is not usable: eye: curve %c has the sum 0",
+                       letters[missing % 3]);
+        if (missing < 3) {
+            assert_fails(parse_observer(text, NULL, &scene, &error), MTM_FORMAT, error, expected);
+            continue;
+        }
+        assert_ok(parse_observer(text, NULL, &scene, &error), error);
+        assert_near(scene->observer.z.value[0], 1, 0);
+        mtm_scene_destroy(scene);
+    }
 }
 
 static double ball(const double world[3]) {
@@ -255,6 +390,10 @@ int main(void) {
         cmocka_unit_test(every_key_arrives),
         cmocka_unit_test(only_volume_and_transfer_are_required),
         cmocka_unit_test(a_written_scene_reads_back_as_the_same_text),
+        cmocka_unit_test(observers_travel_by_name_or_with_their_curves),
+        cmocka_unit_test(curves_with_a_known_name_are_kept),
+        cmocka_unit_test(observers_that_cannot_be_are_refused),
+        cmocka_unit_test(inlined_curves_are_checked),
         cmocka_unit_test(materials_and_wavelengths_give_the_same_picture),
         cmocka_unit_test(new_reflectances_on_a_finished_image_are_rendering_again),
         cmocka_unit_test(lights_are_set_by_name_stop_and_spectrum),
