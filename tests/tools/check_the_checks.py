@@ -54,7 +54,7 @@ class CheckLayers(unittest.TestCase):
         self.refuse({"include/metamer/color.h": '#include "base/fail.h"\n'}, "is private")
 
     def test_a_program_that_includes_a_private_header_is_found(self):
-        for folder in ("cli", "server", "bench", "examples"):
+        for folder in ("cli", "server", "bench", "accuracy", "examples"):
             self.refuse({f"{folder}/a.c": '#include "base/fail.h"\n'}, "is neither a public header")
 
     def test_a_folder_that_is_no_stage_is_found(self):
