@@ -38,6 +38,14 @@ mtm_status collection_append(collection_list *list, const collection_item *item,
     return MTM_OK;
 }
 
+mtm_status collection_append_part(const collection_list *from, collection_part part, collection_list *to,
+                                  mtm_error *error) {
+    mtm_status status = MTM_OK;
+    for (int i = 0; i < from->count && status == MTM_OK; i++)
+        if (from->items[i].part == part) status = collection_append(to, &from->items[i], error);
+    return status;
+}
+
 void collection_list_free(collection_list *list) {
     free(list->items);
     *list = (collection_list){0};

@@ -48,6 +48,9 @@ MTM_CHECK mtm_status collection_append_table(const char *source_folder, const ch
 
 /* Appends one item. MTM_MEMORY. */
 MTM_CHECK mtm_status collection_append(collection_list *list, const collection_item *item, mtm_error *error);
+/* Appends copies of the items that play this part. MTM_MEMORY. */
+MTM_CHECK mtm_status collection_append_part(const collection_list *from, collection_part part,
+                                            collection_list *to, mtm_error *error);
 void collection_list_free(collection_list *list);
 
 #endif

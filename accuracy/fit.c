@@ -90,18 +90,22 @@ static mtm_status fit_factors(fit_queue *queue, int thread_count, mtm_error *err
     return queue->status;
 }
 
-static mtm_status fit_principal(const collection *spectra, const char *out_folder, mtm_error *error) {
-    double(*rows)[PRINCIPAL_SAMPLES] = calloc((size_t)spectra->reflectances.count, sizeof *rows);
-    if (rows == NULL) return fail_memory(error, "principal components");
-    const int first = (PRINCIPAL_FIRST_NM - MTM_WAVELENGTH_FIRST_NM) / MTM_WAVELENGTH_STEP_NM;
-    int count = 0;
-    for (int i = 0; i < spectra->reflectances.count; i++) {
-        const collection_item *item = &spectra->reflectances.items[i];
-        if (item->part == PART_TRAIN) memcpy(rows[count++], &item->spectrum.value[first], sizeof *rows);
+static mtm_status fit_principal(const char *source_folder, const collection *spectra, const char *out_folder,
+                                mtm_error *error) {
+    collection_list list;
+    mtm_status status = training_read_principal(source_folder, spectra, &list, error);
+    if (status != MTM_OK) return status;
+    double(*rows)[PRINCIPAL_SAMPLES] = calloc((size_t)list.count, sizeof *rows);
+    if (rows == NULL) {
+        collection_list_free(&list);
+        return fail_memory(error, "principal components");
     }
+    const int first = (PRINCIPAL_FIRST_NM - MTM_WAVELENGTH_FIRST_NM) / MTM_WAVELENGTH_STEP_NM;
+    for (int i = 0; i < list.count; i++) memcpy(rows[i], &list.items[i].spectrum.value[first], sizeof *rows);
     double components[PRINCIPAL_COMPONENTS][PRINCIPAL_SAMPLES];
-    principal_components(count, (const double(*)[PRINCIPAL_SAMPLES])rows, components, NULL);
+    principal_components(list.count, (const double(*)[PRINCIPAL_SAMPLES])rows, components, NULL);
     free(rows);
+    collection_list_free(&list);
     const table_columns group = {"u", PRINCIPAL_COMPONENTS, components[0], PRINCIPAL_SAMPLES};
     return table_write(out_folder, "reflectance_pca.csv", PRINCIPAL_FIRST_NM, PRINCIPAL_SAMPLES, 1, &group,
                        error);
@@ -113,7 +117,7 @@ static mtm_status run(const char *source_folder, const char *out_folder, int thr
     training_set training = {0};
     mtm_status status = collection_read(source_folder, NULL, &spectra, error);
     if (status != MTM_OK) return status;
-    if (dimension == 0) status = fit_principal(&spectra, out_folder, error);
+    if (dimension == 0) status = fit_principal(source_folder, &spectra, out_folder, error);
     if (status == MTM_OK) status = training_create(source_folder, &spectra, &training, error);
     if (status == MTM_OK) {
         fit_queue queue = {.mutex = PTHREAD_MUTEX_INITIALIZER,

@@ -23,13 +23,6 @@ static bool is_physical(const mtm_spectrum *reflectance) {
     return true;
 }
 
-static mtm_status append_training_part(const collection_list *from, collection_list *to, mtm_error *error) {
-    mtm_status status = MTM_OK;
-    for (int i = 0; i < from->count && status == MTM_OK; i++)
-        if (from->items[i].part == PART_TRAIN) status = collection_append(to, &from->items[i], error);
-    return status;
-}
-
 /* The whole table as a pool, but for what reflects more than all light. */
 static mtm_status append_table_pool(const char *source_folder, const char *table, collection_list *list,
                                     index_pool *pool, mtm_error *error) {
@@ -53,9 +46,9 @@ static mtm_status find_sources(const char *source_folder, const collection *spec
                                training_sources *sources, mtm_error *error) {
     const char *const tables[] = {"reflectance_aces190", "reflectance_vrhel170",
                                   "reflectance_pigments_pmc30"};
-    mtm_status status = append_training_part(&spectra->lights, &sources->lights, error);
+    mtm_status status = collection_append_part(&spectra->lights, PART_TRAIN, &sources->lights, error);
     if (status == MTM_OK)
-        status = append_training_part(&spectra->reflectances, &sources->reflectances, error);
+        status = collection_append_part(&spectra->reflectances, PART_TRAIN, &sources->reflectances, error);
     const index_pool measured = {0, sources->lights.count};
     const index_pool synthetic = {sources->lights.count, SYNTHETIC_LIGHTS};
     const index_pool split = {0, sources->reflectances.count};
@@ -156,4 +149,15 @@ void training_free(training_set *training) {
     free(training->draws);
     free(training->targets);
     *training = (training_set){0};
+}
+
+mtm_status training_read_principal(const char *source_folder, const collection *spectra,
+                                   collection_list *list, mtm_error *error) {
+    *list = (collection_list){0};
+    mtm_status status = collection_append_part(&spectra->reflectances, PART_TRAIN, list, error);
+    if (status == MTM_OK)
+        status = collection_append_table(source_folder, "reflectance_krinov191", MTM_KIND_REFLECTANCE,
+                                         PART_TRAIN, list, error);
+    if (status != MTM_OK) collection_list_free(list);
+    return status;
 }

@@ -28,4 +28,10 @@ MTM_CHECK mtm_status training_create(const char *source_folder, const collection
                                      training_set *training, mtm_error *error);
 void training_free(training_set *training);
 
+/* The reflectances that principal components are taken of: the rows of `spectra` marked train and Krinov's natural
+ * formations, whose smooth spectra keep the sharpened basis well-conditioned up to d = 9. Errors: those of
+ * collection_append_table; MTM_MEMORY. On success the caller calls collection_list_free. */
+MTM_CHECK mtm_status training_read_principal(const char *source_folder, const collection *spectra,
+                                             collection_list *list, mtm_error *error);
+
 #endif
