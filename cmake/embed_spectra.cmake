@@ -14,5 +14,5 @@ foreach(table ${TABLES})
     string(APPEND entries "    {\"${name}\", text_${index}},\n")
     math(EXPR index "${index} + 1")
 endforeach()
-file(WRITE ${OUTPUT} "/* Made by cmake/embed_spectra.cmake from data/spectra/. */\n#include \"spectrum/embedded.h\"\n\n"
+file(WRITE ${OUTPUT} "/* Made by cmake/embed_spectra.cmake from data/. */\n#include \"spectrum/embedded.h\"\n\n"
      "${texts}const mtm_embedded_table mtm_embedded_tables[] = {\n${entries}    {0, 0},\n};\n")

@@ -42,9 +42,11 @@ typedef struct mtm_basis mtm_basis;
 
 /* Makes the basis `name`:
  *   "materials"    d = m + 1: the m reflectances themselves and white; exact under every light
+ *   "factors:D"    D = 3 … 9 ("factors": 7): curves fitted so that products of coefficients stand for products of
+ *                  spectra; coefficients of reflectances are 0 … 1; the light enters exactly
  *   "wavelengths"  d = 81: the grid; exact, the reference. "wavelengths:31": 400, 410 … 700 nm, linear between
  *   "rgb"          d = 3: colors under `illumination`; the plain renderer, cannot be relit
- *   "auto"         materials
+ *   "auto"         materials for up to 6 of them, else factors:7
  * for `material_count` reflectances (copied; 0 … 82). `illumination` is needed for "rgb" and may be NULL for the rest.
  * MTM_ARGUMENT for an unknown name, a dimension the kind does not have, and "rgb" without illumination; MTM_LIMIT for
  * too many materials; MTM_MEMORY. Release with mtm_basis_destroy (NULL allowed). */
@@ -55,7 +57,7 @@ MTM_API MTM_CHECK mtm_status mtm_basis_create(const char *name, int material_cou
 MTM_API void mtm_basis_destroy(mtm_basis *basis);
 
 MTM_API const char *
-mtm_basis_name(const mtm_basis *basis); /* with its dimension where it has several; never "auto" */
+mtm_basis_name(const mtm_basis *basis);                  /* with its dimension, "factors:7"; never "auto" */
 MTM_API int mtm_basis_dimension(const mtm_basis *basis); /* d */
 MTM_API int mtm_basis_material_count(const mtm_basis *basis);
 

@@ -11,7 +11,8 @@
 
 enum { MATERIALS_MAX = MTM_DIMENSION_MAX - 1 /* white is the last column */ };
 
-static const mtm_basis_kind *const kinds[] = {&mtm_basis_materials, &mtm_basis_wavelengths, &mtm_basis_rgb};
+static const mtm_basis_kind *const kinds[] = {&mtm_basis_materials, &mtm_basis_factors,
+                                              &mtm_basis_wavelengths, &mtm_basis_rgb};
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };
 
 /* What a name asks for: the kind, and the number after the colon (0 without one, -1 for one that is none). */
@@ -20,9 +21,11 @@ typedef struct request {
     int dimension;
 } request;
 
+/* Up to six materials and white are exact and fill eight lanes with alpha, no more than factors:7. */
 static request choose_kind(int material_count) {
-    (void)material_count;
-    return (request){&mtm_basis_materials, 0};
+    enum { MATERIALS_IN_EIGHT_LANES = 6 };
+    return (request){material_count <= MATERIALS_IN_EIGHT_LANES ? &mtm_basis_materials : &mtm_basis_factors,
+                     0};
 }
 
 static int parse_dimension(const char *text) {
@@ -166,7 +169,8 @@ mtm_status mtm_basis_encode(const mtm_basis *basis, const mtm_spectrum *spectrum
 mtm_status mtm_basis_multiply(const mtm_basis *basis, const double *a, const double *b, double *product,
                               mtm_error *error) {
     if (!basis->kind->has_products)
-        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" has no products; use wavelengths", basis->name);
+        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" has no products; use factors or wavelengths",
+                        basis->name);
     for (int i = 0; i < basis->dimension; i++) product[i] = a[i] * b[i];
     return MTM_OK;
 }

@@ -101,9 +101,9 @@ static void names_are_checked(void **state) {
                  "wavelengths");
     assert_fails(mtm_basis_create("materials:7", 1, reflectances, NULL, &basis, &error), MTM_ARGUMENT, error,
                  "no dimension");
-    static const char *const dimensions[] = {"wavelengths:30",        "wavelengths:",    "wavelengths:81x",
-                                             "wavelengths:-31",       "wavelengths: 31", "wavelengths:0",
-                                             "wavelengths:4294967327"};
+    static const char *const dimensions[] = {
+        "factors:2",  "factors:10", "factors:",  "factors:7x",     "factors:-7",
+        "factors:+7", "factors: 7", "factors:0", "wavelengths:30", "factors:4294967303"};
     for (size_t i = 0; i < sizeof dimensions / sizeof *dimensions; i++)
         assert_fails(mtm_basis_create(dimensions[i], 1, reflectances, NULL, &basis, &error), MTM_ARGUMENT,
                      error, "the dimension of");
@@ -123,7 +123,8 @@ static void names_in_files_state_the_dimension(void **state) {
     static const struct {
         const char *asked, *name;
         int dimension;
-    } cases[] = {{"materials", "materials", 4},
+    } cases[] = {{"factors", "factors:7", 7},
+                 {"factors:03", "factors:3", 3},
                  {"wavelengths", "wavelengths", 81},
                  {"wavelengths:81", "wavelengths", 81},
                  {"wavelengths:31", "wavelengths:31", 31}};
@@ -131,6 +132,20 @@ static void names_in_files_state_the_dimension(void **state) {
         mtm_basis *basis = fixture_basis(cases[i].asked, NULL);
         assert_string_equal(mtm_basis_name(basis), cases[i].name);
         assert_int_equal(mtm_basis_dimension(basis), cases[i].dimension);
+        mtm_basis_destroy(basis);
+    }
+}
+
+static void auto_is_what_fits_eight_lanes(void **state) {
+    (void)state;
+    mtm_error error;
+    mtm_spectrum reflectances[7];
+    for (int i = 0; i < 7; i++) reflectances[i] = mtm_spectrum_constant(0.5);
+    for (int count = 6; count <= 7; count++) {
+        mtm_basis *basis = NULL;
+        assert_ok(mtm_basis_create("auto", count, reflectances, NULL, &basis, &error), error);
+        assert_string_equal(mtm_basis_name(basis), count == 6 ? "materials" : "factors:7");
+        assert_int_equal(mtm_lanes(mtm_basis_dimension(basis)), 8);
         mtm_basis_destroy(basis);
     }
 }
@@ -176,6 +191,7 @@ int main(void) {
         cmocka_unit_test(rgb_is_the_color_under_its_own_light_and_refuses_others),
         cmocka_unit_test(names_are_checked),
         cmocka_unit_test(names_in_files_state_the_dimension),
+        cmocka_unit_test(auto_is_what_fits_eight_lanes),
         cmocka_unit_test(the_largest_palette_fits_the_lanes),
         cmocka_unit_test(lanes_are_4_8_16_or_the_next_multiple_of_4),
         cmocka_unit_test(adaptation_makes_white_white_under_every_light),

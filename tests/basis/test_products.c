@@ -2,7 +2,10 @@
  * Encoding any spectrum, and products of coefficients (paper eq. 2). */
 #include "fixture.h"
 
-static const char *const multiplying[] = {"wavelengths:31", "wavelengths"};
+static const char *const multiplying[] = {
+    "factors:3", "factors:4", "factors:5",      "factors:6",   "factors:7",
+    "factors:8", "factors:9", "wavelengths:31", "wavelengths",
+};
 enum { MULTIPLYING_COUNT = sizeof multiplying / sizeof *multiplying };
 
 static mtm_xyz color_of(const mtm_basis *basis, const double *matrix, const double *coefficients) {
@@ -118,6 +121,29 @@ static void coarse_wavelengths_are_exact_for_what_is_linear_between_them(void **
     mtm_basis_destroy(basis);
 }
 
+static uint32_t next_random(uint32_t *seed) {
+    *seed = *seed * 1664525u + 1013904223u;
+    return *seed >> 8;
+}
+
+/* Encoding curves are nowhere negative and sum to 1, so any reflectance stays within 0 … 1. */
+static void factors_of_physical_reflectances_are_physical(void **state) {
+    (void)state;
+    mtm_error error;
+    uint32_t seed = 3;
+    for (int kind = 0; kind < 7; kind++) {
+        mtm_basis *basis = fixture_basis(multiplying[kind], NULL);
+        for (int repeat = 0; repeat < 200; repeat++) {
+            mtm_spectrum spectrum;
+            double c[MTM_DIMENSION_MAX];
+            for (int k = 0; k < MTM_SPECTRUM_SAMPLES; k++) spectrum.value[k] = next_random(&seed) & 1;
+            assert_ok(mtm_basis_encode(basis, &spectrum, c, &error), error);
+            for (int i = 0; i < mtm_basis_dimension(basis); i++) assert_true(c[i] >= 0 && c[i] <= 1 + 1e-9);
+        }
+        mtm_basis_destroy(basis);
+    }
+}
+
 static void bases_without_products_say_so(void **state) {
     (void)state;
     mtm_error error;
@@ -143,6 +169,7 @@ int main(void) {
         cmocka_unit_test(all_ones_reconstruct_to_white),
         cmocka_unit_test(products_of_wavelengths_are_the_products_of_spectra),
         cmocka_unit_test(coarse_wavelengths_are_exact_for_what_is_linear_between_them),
+        cmocka_unit_test(factors_of_physical_reflectances_are_physical),
         cmocka_unit_test(bases_without_products_say_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
