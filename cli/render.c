@@ -8,7 +8,7 @@
 static const command_option options[] = {
     {"-o", "FILE", "IMAGE.exr (spectral, to be relit) or PICTURE.png (under the scene's light)"},
     {"--renderer", "NAME", "raycast"},
-    {"--basis", "NAME", "auto, materials, factors:D, wavelengths or rgb"},
+    {"--basis", "NAME", "auto, materials, factors:D, sharpened:D, wavelengths or rgb"},
     {"--size", "WxH", "picture size in pixels"},
     {"--threads", "N", "default: all processors; the picture is the same for any"},
     {"--volume", "FILE", "the volume to use instead of the scene's"},

@@ -44,12 +44,15 @@ typedef struct mtm_basis mtm_basis;
  *   "materials"    d = m + 1: the m reflectances themselves and white; exact under every light
  *   "factors:D"    D = 3 … 9 ("factors": 7): curves fitted so that products of coefficients stand for products of
  *                  spectra; coefficients of reflectances are 0 … 1; the light enters exactly
+ *   "sharpened:D"  D = 3 … 9 ("sharpened": 7): principal components of reflectances, spectrally sharpened, the light
+ *                  as D coefficients of its own (paper eq. 2)
  *   "wavelengths"  d = 81: the grid; exact, the reference. "wavelengths:31": 400, 410 … 700 nm, linear between
  *   "rgb"          d = 3: colors under `illumination`; the plain renderer, cannot be relit
  *   "auto"         materials for up to 6 of them, else factors:7
  * for `material_count` reflectances (copied; 0 … 82). `illumination` is needed for "rgb" and may be NULL for the rest.
  * MTM_ARGUMENT for an unknown name, a dimension the kind does not have, and "rgb" without illumination; MTM_LIMIT for
- * too many materials; MTM_MEMORY. Release with mtm_basis_destroy (NULL allowed). */
+ * too many materials; MTM_NUMERIC for an ill-conditioned sharpened basis; MTM_MEMORY. Release with mtm_basis_destroy
+ * (NULL allowed). */
 MTM_API MTM_CHECK mtm_status mtm_basis_create(const char *name, int material_count,
                                               const mtm_spectrum *reflectances,
                                               const mtm_illumination *illumination, mtm_basis **basis,

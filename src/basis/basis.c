@@ -11,7 +11,7 @@
 
 enum { MATERIALS_MAX = MTM_DIMENSION_MAX - 1 /* white is the last column */ };
 
-static const mtm_basis_kind *const kinds[] = {&mtm_basis_materials, &mtm_basis_factors,
+static const mtm_basis_kind *const kinds[] = {&mtm_basis_materials, &mtm_basis_factors, &mtm_basis_sharpened,
                                               &mtm_basis_wavelengths, &mtm_basis_rgb};
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };
 
@@ -169,8 +169,8 @@ mtm_status mtm_basis_encode(const mtm_basis *basis, const mtm_spectrum *spectrum
 mtm_status mtm_basis_multiply(const mtm_basis *basis, const double *a, const double *b, double *product,
                               mtm_error *error) {
     if (!basis->kind->has_products)
-        return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" has no products; use factors or wavelengths",
-                        basis->name);
+        return mtm_fail(error, MTM_ARGUMENT,
+                        "basis \"%s\" has no products; use factors, sharpened or wavelengths", basis->name);
     for (int i = 0; i < basis->dimension; i++) product[i] = a[i] * b[i];
     return MTM_OK;
 }

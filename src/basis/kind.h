@@ -36,6 +36,7 @@ struct mtm_basis {
 
 extern const mtm_basis_kind mtm_basis_materials;
 extern const mtm_basis_kind mtm_basis_factors;
+extern const mtm_basis_kind mtm_basis_sharpened;
 extern const mtm_basis_kind mtm_basis_wavelengths;
 extern const mtm_basis_kind mtm_basis_rgb;
 

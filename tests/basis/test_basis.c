@@ -102,8 +102,8 @@ static void names_are_checked(void **state) {
     assert_fails(mtm_basis_create("materials:7", 1, reflectances, NULL, &basis, &error), MTM_ARGUMENT, error,
                  "no dimension");
     static const char *const dimensions[] = {
-        "factors:2",  "factors:10", "factors:",  "factors:7x",     "factors:-7",
-        "factors:+7", "factors: 7", "factors:0", "wavelengths:30", "factors:4294967303"};
+        "factors:2",  "factors:10", "factors:",    "factors:7x",   "factors:-7",     "factors:+7",
+        "factors: 7", "factors:0",  "sharpened:2", "sharpened:10", "wavelengths:30", "factors:4294967303"};
     for (size_t i = 0; i < sizeof dimensions / sizeof *dimensions; i++)
         assert_fails(mtm_basis_create(dimensions[i], 1, reflectances, NULL, &basis, &error), MTM_ARGUMENT,
                      error, "the dimension of");
@@ -125,6 +125,8 @@ static void names_in_files_state_the_dimension(void **state) {
         int dimension;
     } cases[] = {{"factors", "factors:7", 7},
                  {"factors:03", "factors:3", 3},
+                 {"sharpened", "sharpened:7", 7},
+                 {"sharpened:9", "sharpened:9", 9},
                  {"wavelengths", "wavelengths", 81},
                  {"wavelengths:81", "wavelengths", 81},
                  {"wavelengths:31", "wavelengths:31", 31}};

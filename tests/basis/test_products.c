@@ -3,8 +3,9 @@
 #include "fixture.h"
 
 static const char *const multiplying[] = {
-    "factors:3", "factors:4", "factors:5",      "factors:6",   "factors:7",
-    "factors:8", "factors:9", "wavelengths:31", "wavelengths",
+    "factors:3",   "factors:4",   "factors:5",      "factors:6",   "factors:7",   "factors:8",
+    "factors:9",   "sharpened:3", "sharpened:4",    "sharpened:5", "sharpened:6", "sharpened:7",
+    "sharpened:8", "sharpened:9", "wavelengths:31", "wavelengths",
 };
 enum { MULTIPLYING_COUNT = sizeof multiplying / sizeof *multiplying };
 

@@ -2,7 +2,7 @@
 """Rendering in every basis and relighting the result."""
 import support
 
-BASES = {"factors:3": 3, "factors:5": 5, "factors:7": 7, "factors:9": 9, "wavelengths:31": 31}
+BASES = {"factors:3": 3, "factors:5": 5, "factors:7": 7, "factors:9": 9, "sharpened:7": 7, "wavelengths:31": 31}
 
 
 class Basis(support.CliTest):
@@ -43,9 +43,10 @@ class Basis(support.CliTest):
             self.assertLess(nine, 0.3)
             self.assertLess(seven, 0.5)
             self.assertGreater(seven, 0)
+            self.assertGreater(self.difference("sharpened:7", light), 2 * seven)
 
     def test_dimensions_are_checked(self):
-        for basis in ("factors:2", "factors:10", "wavelengths:7"):
+        for basis in ("factors:2", "factors:10", "sharpened:x", "wavelengths:7"):
             result = self.call("render", "scene.json", "-o", "image.exr", "--basis", basis)
             self.assertNotEqual(result.returncode, 0)
             self.assertIn(basis, result.stderr)
