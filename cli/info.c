@@ -7,29 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "document.h"
 #include "task.h"
 
 static const command_option options[] = {
     {"--json", NULL, "print a JSON document"},
     {NULL, NULL, NULL},
 };
-
-/* JSON holds UTF-8 only; a byte of another encoding becomes a question mark. */
-static json_t *text_of(const char *text) {
-    json_t *value = json_string(text);
-    char *plain = value == NULL ? strdup(text) : NULL;
-    for (char *byte = plain; byte != NULL && *byte != '\0'; byte++)
-        if ((unsigned char)*byte >= 0x80) *byte = '?';
-    if (plain != NULL) value = json_string(plain);
-    free(plain);
-    return value;
-}
-
-static json_t *numbers(int count, const double *values) {
-    json_t *array = json_array();
-    for (int i = 0; i < count; i++) (void)json_array_append_new(array, json_real(values[i]));
-    return array;
-}
 
 static json_t *describe_volume(const mtm_volume *volume) {
     const mtm_grid *grid = mtm_volume_grid(volume);
@@ -41,15 +25,16 @@ static json_t *describe_volume(const mtm_volume *volume) {
     mtm_volume_sha256(volume, sha256);
     for (int axis = 0; axis < 3; axis++) {
         spacing[axis] = mtm_grid_spacing(grid, axis);
-        (void)json_array_append_new(axes, numbers(3, grid->axes[axis]));
+        (void)json_array_append_new(axes, make_numbers(3, grid->axes[axis]));
     }
     const size_t bytes = mtm_volume_voxel_count(volume) * mtm_voxel_type_bytes(mtm_volume_type(volume));
     return json_pack("{s:s, s:s, s:[i,i,i], s:o, s:o, s:o, s:o, s:b, s:o, s:f, s:f, s:I, s:s}", "kind",
                      "volume", "type", mtm_voxel_type_name(mtm_volume_type(volume)), "size", grid->size[0],
-                     grid->size[1], grid->size[2], "spacing", numbers(3, spacing), "axes", axes, "origin",
-                     numbers(3, grid->origin), "unit", text_of(grid->unit), "oriented",
-                     (int)grid->is_oriented, "range", numbers(2, range), "slope", mtm_volume_slope(volume),
-                     "intercept", mtm_volume_intercept(volume), "bytes", (json_int_t)bytes, "sha256", sha256);
+                     grid->size[1], grid->size[2], "spacing", make_numbers(3, spacing), "axes", axes,
+                     "origin", make_numbers(3, grid->origin), "unit", make_text(grid->unit), "oriented",
+                     (int)grid->is_oriented, "range", make_numbers(2, range), "slope",
+                     mtm_volume_slope(volume), "intercept", mtm_volume_intercept(volume), "bytes",
+                     (json_int_t)bytes, "sha256", sha256);
 }
 
 /* Colors of a picture, encoded 0..1, of every material alone under every light alone. */
@@ -64,7 +49,7 @@ static json_t *describe_colors(const mtm_palette *palette, const mtm_material *m
         const mtm_illumination illumination = mtm_illumination_of(&light, &observer, false);
         const mtm_rgb rgb = mtm_illuminate(&illumination, &material->reflectance);
         const double encoded[3] = {mtm_srgb_encode(rgb.r), mtm_srgb_encode(rgb.g), mtm_srgb_encode(rgb.b)};
-        (void)json_object_set_new(colors, palette->lights[i].name, numbers(3, encoded));
+        (void)json_object_set_new(colors, palette->lights[i].name, make_numbers(3, encoded));
         weights[i] = 0;
     }
     return colors;
@@ -189,10 +174,11 @@ static mtm_status describe_table_file(const char *path, json_t **object, mtm_err
     const mtm_status status = mtm_spectrum_table_read(path, &table, error);
     if (status != MTM_OK) return status;
     json_t *names = json_array();
-    for (int i = 0; i < table.column_count; i++) (void)json_array_append_new(names, text_of(table.names[i]));
+    for (int i = 0; i < table.column_count; i++)
+        (void)json_array_append_new(names, make_text(table.names[i]));
     const double range[2] = {table.wavelength_nm[0], table.wavelength_nm[table.row_count - 1]};
-    *object = json_pack("{s:s, s:o, s:i, s:o}", "kind", "spectra", "wavelength_nm", numbers(2, range), "rows",
-                        table.row_count, "columns", names);
+    *object = json_pack("{s:s, s:o, s:i, s:o}", "kind", "spectra", "wavelength_nm", make_numbers(2, range),
+                        "rows", table.row_count, "columns", names);
     mtm_spectrum_table_free(&table);
     return MTM_OK;
 }
@@ -262,13 +248,11 @@ static int run(const subcommand *command, int argc, char **argv) {
         (void)snprintf(error.message, sizeof error.message, "%s: cannot be described: out of memory", path);
         return fail_command(command, &error);
     }
-    (void)json_object_set_new(object, "file", text_of(path));
-    if (is_json) {
-        (void)json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
-        (void)printf("\n");
-    } else {
+    (void)json_object_set_new(object, "file", make_text(path));
+    if (is_json)
+        print_document(object);
+    else
         print_plain(object, 0);
-    }
     json_decref(object);
     return EXIT_DONE;
 }
