@@ -21,7 +21,8 @@ typedef struct subcommand {
     int (*run)(const struct subcommand *command, int argc, char **argv);
 } subcommand;
 
-extern const subcommand render_command, relight_command, info_command, compare_command, convert_command;
+extern const subcommand render_command, relight_command, info_command, compare_command, convert_command,
+    color_command;
 
 /* Walks the arguments of a subcommand. */
 typedef struct argument_walk {

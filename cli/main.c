@@ -8,8 +8,8 @@
 #include "command.h"
 #include "metamer/metamer.h"
 
-static const subcommand *const commands[] = {&render_command, &relight_command, &info_command,
-                                             &compare_command, &convert_command};
+static const subcommand *const commands[] = {&render_command,  &relight_command, &info_command,
+                                             &compare_command, &convert_command, &color_command};
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 
 static void print_overview(FILE *stream) {

@@ -28,6 +28,13 @@ def info(path):
     return done.returncode, done.stdout, done.stderr
 
 
+def keys_of(document):
+    """Of the objects in a document, however deep."""
+    if isinstance(document, list):
+        return set().union(*map(keys_of, document))
+    return set(document).union(*map(keys_of, document.values())) if isinstance(document, dict) else set()
+
+
 class Docs(unittest.TestCase):
     def test_links_lead_to_files(self):
         for document in documents():
@@ -75,6 +82,19 @@ class Docs(unittest.TestCase):
             self.assertIsNotNone(row, facts["kind"])
             described = set(re.findall(r"`([a-z0-9_]+)`", row.group(1)))
             self.assertEqual(set(facts) - {"kind", "file"}, described, path)
+
+    def test_color_prints_the_keys_that_are_described(self):
+        table = SOURCE / "data/spectra/reflectance_colorchecker_ohta.csv"
+        printed = set()
+        for options in (["--through=cyan", "--basis=factors:7"],
+                        ["--observer", SOURCE / "data/spectra/camera_nikon_d5100.csv"]):
+            done = subprocess.run([METAMER, "color", table, "--json", *options], capture_output=True, check=True)
+            printed |= keys_of(json.loads(done.stdout))
+        section = FILES_MANUAL.split("## `metamer color")[1].split("\n## ")[0]
+        rows = re.findall(r"^\| (`.*?) \| (.*) \|$", section, re.MULTILINE)
+        inner = next(text for keys, text in rows if keys == "`light`")
+        described = re.findall(r"`([a-z_]+)`", " ".join([inner, *(keys for keys, _ in rows)]))
+        self.assertEqual(printed, set(described))
 
     def test_every_subcommand_is_in_the_readme_and_has_help(self):
         readme = (SOURCE / "README.md").read_text(encoding="utf-8")
