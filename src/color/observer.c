@@ -35,14 +35,19 @@ mtm_status mtm_observer_get(const char *name, mtm_observer *observer, mtm_error 
     int found = 0;
     while (found < OBSERVER_COUNT && strcmp(observers[found].name, name) != 0) found++;
     if (found == OBSERVER_COUNT) return fail_unknown(name, error);
-    (void)snprintf(observer->name, sizeof observer->name, "%s", observers[found].name);
-    observer->is_camera = false;
-    const char *table = observers[found].table;
-    mtm_status status = mtm_embedded_column(table, "x_bar", MTM_KIND_OBSERVER, &observer->x, error);
-    if (status == MTM_OK)
-        status = mtm_embedded_column(table, "y_bar", MTM_KIND_OBSERVER, &observer->y, error);
-    if (status == MTM_OK)
-        status = mtm_embedded_column(table, "z_bar", MTM_KIND_OBSERVER, &observer->z, error);
+    const char *name_of_table = observers[found].table;
+    mtm_spectrum_table table;
+    mtm_status status = mtm_embedded_table_read(name_of_table, &table, error);
+    if (status != MTM_OK) return status;
+    mtm_observer made = {.is_camera = false};
+    (void)snprintf(made.name, sizeof made.name, "%s", observers[found].name);
+    const char *const columns[] = {"x_bar", "y_bar", "z_bar"};
+    mtm_spectrum *const curves[] = {&made.x, &made.y, &made.z};
+    for (int i = 0; i < 3 && status == MTM_OK; i++)
+        status =
+            mtm_spectrum_table_column(&table, name_of_table, columns[i], MTM_KIND_OBSERVER, curves[i], error);
+    mtm_spectrum_table_free(&table);
+    if (status == MTM_OK) *observer = made;
     return status;
 }
 

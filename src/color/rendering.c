@@ -84,18 +84,22 @@ static mtm_status make_reference(double kelvin, const mtm_observer *observer, vi
 
 static mtm_status compare_colors(const viewing *light, const viewing *reference,
                                  mtm_color_rendering_result *result, mtm_error *error) {
+    static const char name[] = "cie_test_color_samples";
+    mtm_spectrum_table table;
+    mtm_status status = mtm_embedded_table_read(name, &table, error);
+    if (status != MTM_OK) return status;
     result->general = 0;
-    for (int i = 0; i < MTM_TEST_COLORS; i++) {
+    for (int i = 0; i < MTM_TEST_COLORS && status == MTM_OK; i++) {
         char column[8];
         mtm_spectrum reflectance;
         (void)snprintf(column, sizeof column, "TCS%02d", i + 1);
-        const mtm_status status =
-            mtm_embedded_column("cie_test_color_samples", column, MTM_KIND_REFLECTANCE, &reflectance, error);
-        if (status != MTM_OK) return status;
+        status = mtm_spectrum_table_column(&table, name, column, MTM_KIND_REFLECTANCE, &reflectance, error);
+        if (status != MTM_OK) break;
         result->special[i] = index_of(&reflectance, light, reference);
         if (i < GENERAL_COLORS) result->general += result->special[i] / GENERAL_COLORS;
     }
-    return MTM_OK;
+    mtm_spectrum_table_free(&table);
+    return status;
 }
 
 mtm_status mtm_color_rendering(const mtm_spectrum *light, mtm_color_rendering_result *result,

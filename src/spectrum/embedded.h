@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * The CSV tables of data/spectra/cie_ and data/bases/, built into the library by cmake/embed_spectra.cmake. */
+ * The CSV tables of data/spectra/cie_….csv and data/bases/, built into the library by cmake/embed_spectra.cmake. */
 #ifndef METAMER_SPECTRUM_EMBEDDED_H
 #define METAMER_SPECTRUM_EMBEDDED_H
 
