@@ -119,7 +119,7 @@ static mtm_status make_displays(viewing *v, mtm_error *error) {
     mtm_status status = mtm_observer_get("cie1931", &standard, error);
     if (status == MTM_OK) status = mtm_light_normalize(&v->light, &standard, &shown, error);
     if (status != MTM_OK) return status;
-    const mtm_illumination picture = mtm_illumination_of(&shown, &v->observer, false);
+    const mtm_illumination picture = mtm_illumination_of(&shown, &v->observer, 0);
     const double exposure = mtm_xyz_of(&shown, &v->observer).y;
     mtm_bradford(v->white, mtm_white_d65(), adaptation);
     for (int column = 0; column < 3; column++) {

@@ -46,7 +46,7 @@ static json_t *describe_colors(const mtm_palette *palette, const mtm_material *m
     for (int i = 0; i < palette->light_count && i < MTM_LIGHTS_MAX; i++) {
         weights[i] = 1;
         const mtm_spectrum light = mtm_palette_mix(palette, weights, 1);
-        const mtm_illumination illumination = mtm_illumination_of(&light, &observer, false);
+        const mtm_illumination illumination = mtm_illumination_of(&light, &observer, 0);
         const mtm_rgb rgb = mtm_illuminate(&illumination, &material->reflectance);
         const double encoded[3] = {mtm_srgb_encode(rgb.r), mtm_srgb_encode(rgb.g), mtm_srgb_encode(rgb.b)};
         (void)json_object_set_new(colors, palette->lights[i].name, make_numbers(3, encoded));

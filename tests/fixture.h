@@ -29,7 +29,7 @@ static inline mtm_illumination fixture_illumination(const char *illuminant) {
     assert_ok(mtm_illuminant(illuminant, &light, &error), error);
     assert_ok(mtm_observer_get("cie1931", &observer, &error), error);
     assert_ok(mtm_light_normalize(&light, &observer, &normalized, &error), error);
-    return mtm_illumination_of(&normalized, &observer, false);
+    return mtm_illumination_of(&normalized, &observer, 0);
 }
 
 static inline mtm_basis *fixture_basis(const char *name, const mtm_illumination *illumination) {

@@ -19,14 +19,14 @@ typedef struct mtm_illumination {
 /* Fills an illumination for a light whose amount is its CIE 1931 luminance, as in palettes, whoever looks; the sum of
  * the observer's y over the grid is positive.
  *   An observer's XYZ become linear sRGB. They are multiplied with a fixed exposure that makes y 1 on the perfect
- * reflector under equal-energy light of luminance 1 (for CIE 1931 it is 1). `is_adapted` maps the light's own white to
- * sRGB's D65 (Bradford) at the light's luminance, so that white looks white under every light.
+ * reflector under equal-energy light of luminance 1 (for CIE 1931 it is 1). Where `adapted_y` is not 0, the light's own
+ * white is mapped to sRGB's D65 of that y (Bradford), so that white looks white under every light.
  *   A camera's responses are shown raw, as linear red, green, blue: rgb_from_xyz is the same kind of exposure, which
- * makes green 1, times the identity. `is_adapted` scales each channel so that white is neutral at the light's luminance.
+ * makes green 1, times the identity. Where `adapted_y` is not 0, each channel is scaled so that white has that value.
  *   Exposures know no light, so without adaptation the picture under a mix of lights is the mix of the pictures. A light
  * without luminance is left unadapted, and so is a camera's channel that does not see it. */
 MTM_API mtm_illumination mtm_illumination_of(const mtm_spectrum *light, const mtm_observer *observer,
-                                             bool is_adapted);
+                                             double adapted_y);
 
 /* Linear sRGB of a reflectance: X · CMFᵀ · diag(E) · ρ, the full-spectral truth every basis is measured against. */
 MTM_API mtm_rgb mtm_illuminate(const mtm_illumination *illumination, const mtm_spectrum *reflectance);

@@ -7,10 +7,17 @@
 #include "base/memory.h"
 #include "scene/scene.h"
 
+/* Every light has Y = 1 before its weight. */
+static double luminance_of(const mtm_scene *scene) {
+    double sum = 0;
+    for (int i = 0; i < scene->palette.light_count; i++) sum += scene->lights.weights[i];
+    return scene->lights.intensity * sum;
+}
+
 mtm_illumination mtm_scene_illumination(const mtm_scene *scene) {
     const mtm_spectrum light =
         mtm_palette_mix(&scene->palette, scene->lights.weights, scene->lights.intensity);
-    return mtm_illumination_of(&light, &scene->observer, scene->is_white_adapted);
+    return mtm_illumination_of(&light, &scene->observer, scene->is_white_adapted ? luminance_of(scene) : 0);
 }
 
 /* The basis `name` for the scene's materials under its light. */

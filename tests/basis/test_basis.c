@@ -177,12 +177,12 @@ static void adaptation_makes_white_white_under_every_light(void **state) {
     for (int i = 0; i < 4; i++) {
         const mtm_illumination plain = fixture_illumination(lights[i]);
         const mtm_spectrum bright = mtm_spectrum_scale(&plain.light, 2);
-        const mtm_illumination adapted = mtm_illumination_of(&bright, &plain.observer, true);
+        const mtm_illumination adapted = mtm_illumination_of(&bright, &plain.observer, 2);
         assert_same_color(mtm_illuminate(&adapted, &white), (mtm_rgb){2, 2, 2}, 1e-3); /* intensity stays */
     }
     const mtm_spectrum dark = mtm_spectrum_constant(0);
     const mtm_illumination plain = fixture_illumination("A");
-    const mtm_illumination none = mtm_illumination_of(&dark, &plain.observer, true);
+    const mtm_illumination none = mtm_illumination_of(&dark, &plain.observer, 1);
     assert_same_color(mtm_illuminate(&none, &white), (mtm_rgb){0, 0, 0}, 0);
 }
 

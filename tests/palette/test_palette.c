@@ -57,7 +57,7 @@ static void a_material_of_a_color_shows_it_under_daylight(void **state) {
     assert_near(mtm_srgb_encode(card.b), 0x40 / 255.0, 1e-4);
     /* A light of that color has its chromaticity on white, at Y = 1. */
     const mtm_spectrum mixed = mtm_palette_mix(&palette, (const double[2]){0, 1}, 1);
-    const mtm_illumination orange = mtm_illumination_of(&mixed, &day.observer, false);
+    const mtm_illumination orange = mtm_illumination_of(&mixed, &day.observer, 0);
     const mtm_rgb shown = mtm_illuminate(&orange, &white);
     assert_near(shown.r / shown.g, card.r / card.g, 1e-3);
     assert_near(shown.b / shown.g, card.b / card.g, 1e-3);
