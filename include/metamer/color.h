@@ -69,15 +69,15 @@ MTM_API MTM_CHECK mtm_status mtm_rgb_parse(const char *hex, mtm_rgb *linear, mtm
 MTM_API mtm_xyz mtm_white_d65(void);
 
 /* CIELAB relative to a white with y > 0, exact 6/29 constants (CIE 015). Where the white's x or z is 0, the color's
- * counts as 0 too. */
+ * ratio to it counts as that of y, so that white is (100, 0, 0). */
 MTM_API mtm_lab mtm_lab_from_xyz(mtm_xyz xyz, mtm_xyz white);
 
 /* CIEDE2000 with kL = kC = kH = 1 (Sharma, Wu, Dalal, Color Res. Appl. 30, 2005). */
 MTM_API double mtm_ciede2000(mtm_lab a, mtm_lab b);
 
-/* The 3×3 matrix, row by row, that adapts XYZ from one white to another (Bradford, linear). Both whites have
- * y > 0. A nearly monochromatic light may have negative cone responses, whose adaptation maps white to white but means
- * little elsewhere; a response of 0 cannot be scaled and is left as it is. */
+/* The 3×3 matrix, row by row, that adapts XYZ from one white to another (Bradford, linear). Both whites have y > 0. Where
+ * the first has a cone response below a hundredth of its y, as narrow blue light near 470 nm has, X, Y and Z themselves
+ * are scaled instead, but for one that is 0. */
 MTM_API void mtm_bradford(mtm_xyz from_white, mtm_xyz to_white, double matrix[3][3]);
 
 /* The smoothest reflectance (least sum of squared steps between neighbours) with 0 ≤ ρ ≤ 1 that shows the linear

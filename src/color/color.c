@@ -26,7 +26,7 @@ static double apply_row(const double row[3], double x, double y, double z) {
     return row[0] * x + row[1] * y + row[2] * z;
 }
 
-/* For the two matrices above, which have an inverse. */
+/* For the matrices of this file, which have an inverse. */
 static mtm_matrix3 inverse_of(mtm_matrix3 matrix) {
     mtm_matrix3 inverse;
     const bool is_regular = mtm_matrix3_invert(matrix, &inverse);
@@ -98,27 +98,48 @@ static double lab_curve(double ratio) {
     return ratio / (3 * delta * delta) + 4.0 / 29;
 }
 
-/* A light that lacks red or blue has a white with x or z of 0; what it shows has 0 there too. */
-static double ratio_to_white(double value, double white) {
-    return white == 0 ? 0 : value / white;
+/* A light that lacks red or blue has a white with x or z of 0, and so has all that it shows; white's share is taken to
+ * be that of y, so that white is neutral. */
+static double ratio_to_white(double value, double white, double luminance_ratio) {
+    return white == 0 ? luminance_ratio : value / white;
 }
 
 mtm_lab mtm_lab_from_xyz(mtm_xyz xyz, mtm_xyz white) {
     assert(white.y > 0);
-    const double x = lab_curve(ratio_to_white(xyz.x, white.x));
-    const double y = lab_curve(xyz.y / white.y);
-    const double z = lab_curve(ratio_to_white(xyz.z, white.z));
+    const double luminance_ratio = xyz.y / white.y;
+    const double x = lab_curve(ratio_to_white(xyz.x, white.x, luminance_ratio));
+    const double y = lab_curve(luminance_ratio);
+    const double z = lab_curve(ratio_to_white(xyz.z, white.z, luminance_ratio));
     return (mtm_lab){116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+/* The responses of Bradford's cones, or x, y, z themselves, to a white. */
+static void respond(const double cones[3][3], mtm_xyz white, double responses[3]) {
+    for (int i = 0; i < 3; i++) responses[i] = apply_row(cones[i], white.x, white.y, white.z);
+}
+
+/* Bradford's sharpened cones are negative for some colors. Near there a response, divided by, would turn a light's small
+ * difference into a large one of the picture; x, y and z cannot do that, they are sums of what is not negative. */
+static mtm_matrix3 choose_cones(mtm_xyz white) {
+    static const mtm_matrix3 xyz = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    static const double least_share = 0.01; /* of y; HP1, nearly monochromatic yellow, has 0.1 */
+    double responses[3];
+    respond(bradford_cones.m, white, responses);
+    for (int i = 0; i < 3; i++)
+        if (!(responses[i] >= least_share * white.y)) return xyz;
+    return bradford_cones;
 }
 
 void mtm_bradford(mtm_xyz from_white, mtm_xyz to_white, double matrix[3][3]) {
     assert(from_white.y > 0 && to_white.y > 0);
-    mtm_matrix3 scaled = bradford_cones;
-    for (int i = 0; i < 3; i++) {
-        const double from = apply_row(bradford_cones.m[i], from_white.x, from_white.y, from_white.z);
-        const double to = apply_row(bradford_cones.m[i], to_white.x, to_white.y, to_white.z);
-        for (int j = 0; j < 3 && from != 0; j++) scaled.m[i][j] *= to / from;
-    }
-    const mtm_matrix3 product = mtm_matrix3_multiply(inverse_of(bradford_cones), scaled);
+    const mtm_matrix3 cones = choose_cones(from_white);
+    mtm_matrix3 scaled = cones;
+    double from[3];
+    double to[3];
+    respond(cones.m, from_white, from);
+    respond(cones.m, to_white, to);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3 && from[i] != 0; j++) scaled.m[i][j] *= to[i] / from[i];
+    const mtm_matrix3 product = mtm_matrix3_multiply(inverse_of(cones), scaled);
     memcpy(matrix, product.m, sizeof product.m);
 }

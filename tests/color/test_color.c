@@ -116,6 +116,8 @@ static void lab_under_a_light_without_blue_is_finite(void **state) {
     (void)state;
     const mtm_lab lab = mtm_lab_from_xyz((mtm_xyz){0.5, 0.4, 0}, (mtm_xyz){1.2, 1, 0});
     assert_true(isfinite(lab.l) && isfinite(lab.a) && isfinite(lab.b));
+    const mtm_lab white = mtm_lab_from_xyz((mtm_xyz){1.2, 1, 0}, (mtm_xyz){1.2, 1, 0});
+    assert_true(fabs(white.l - 100) < 1e-12 && fabs(white.a) < 1e-12 && fabs(white.b) < 1e-12);
 }
 
 static void bradford_maps_white_to_white(void **state) {
@@ -132,17 +134,38 @@ static void bradford_maps_white_to_white(void **state) {
     assert_xyz(apply(same, color), color, 1e-14);
 }
 
-/* The second cone does not see this white. */
-static void bradford_leaves_a_cone_without_response_alone(void **state) {
+static mtm_xyz line_of(int wavelength_nm) {
+    mtm_error error;
+    mtm_observer observer;
+    mtm_spectrum line = mtm_spectrum_constant(0);
+    assert_ok(mtm_observer_get("cie1931", &observer, &error), error);
+    line.value[(wavelength_nm - MTM_WAVELENGTH_FIRST_NM) / MTM_WAVELENGTH_STEP_NM] = 1;
+    const mtm_xyz xyz = mtm_xyz_of(&line, &observer);
+    return (mtm_xyz){xyz.x / xyz.y, 1, xyz.z / xyz.y};
+}
+
+/* Bradford's first cone has a negative response around 470 nm and is 0 beside it. White still becomes white, and the
+ * adaptation of colors near it stays near: no entry beyond what x, y or z of the white ask for. */
+static void adaptation_from_lines_is_bounded(void **state) {
     (void)state;
-    const double cone[3] = {-0.7502, 1.7135, 0.0367};
-    const mtm_xyz color = {0.2, 0.3, 0.4};
+    const mtm_xyz d65 = mtm_white_d65();
+    for (int nm = 400; nm <= 640; nm += 5) {
+        double matrix[3][3];
+        const mtm_xyz white = line_of(nm);
+        mtm_bradford(white, d65, matrix);
+        assert_xyz(apply(matrix, white), d65, 1e-9);
+        const double least = fmin(white.x, fmin(white.y, white.z));
+        for (int i = 0; i < 9; i++) assert_true(fabs(matrix[i / 3][i % 3]) < 100 + 2 / least);
+    }
+}
+
+/* Deep red light has no z, and nothing it shows has any. */
+static void adaptation_from_light_without_z_leaves_z_alone(void **state) {
+    (void)state;
     double matrix[3][3];
-    mtm_bradford((mtm_xyz){1.7135, 0.7502, 0}, mtm_white_d65(), matrix);
-    const mtm_xyz adapted = apply(matrix, color);
-    const double before = cone[0] * color.x + cone[1] * color.y + cone[2] * color.z;
-    const double after = cone[0] * adapted.x + cone[1] * adapted.y + cone[2] * adapted.z;
-    assert_true(fabs(after - before) < 1e-14);
+    mtm_bradford((mtm_xyz){2.5, 1, 0}, mtm_white_d65(), matrix);
+    const mtm_xyz adapted = apply(matrix, (mtm_xyz){1.25, 0.5, 0});
+    assert_xyz(adapted, (mtm_xyz){0.5 * mtm_white_d65().x, 0.5, 0}, 1e-14);
 }
 
 /* D50 to D65, as published for ICC profiles (B. Lindbloom) from whites to five digits. */
@@ -169,7 +192,8 @@ int main(void) {
         cmocka_unit_test(lab_is_smooth_where_its_branches_meet),
         cmocka_unit_test(lab_under_a_light_without_blue_is_finite),
         cmocka_unit_test(bradford_maps_white_to_white),
-        cmocka_unit_test(bradford_leaves_a_cone_without_response_alone),
+        cmocka_unit_test(adaptation_from_lines_is_bounded),
+        cmocka_unit_test(adaptation_from_light_without_z_leaves_z_alone),
         cmocka_unit_test(bradford_has_its_published_matrix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
