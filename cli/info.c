@@ -37,16 +37,21 @@ static json_t *describe_volume(const mtm_volume *volume) {
                      (json_int_t)bytes, "sha256", sha256);
 }
 
-/* Colors of a picture, encoded 0..1, of every material alone under every light alone. */
-static json_t *describe_colors(const mtm_palette *palette, const mtm_material *material) {
-    json_t *colors = json_object();
+/* Who looks at a palette: the scene's observer, or CIE 1931 at one that stands alone. */
+typedef struct onlooker {
     mtm_observer observer;
+    double adapted_y;
+} onlooker;
+
+/* Colors of a picture, encoded 0..1, of every material alone under every light alone. */
+static json_t *describe_colors(const mtm_palette *palette, const onlooker *who,
+                               const mtm_material *material) {
+    json_t *colors = json_object();
     double weights[MTM_LIGHTS_MAX] = {0};
-    if (mtm_observer_get("cie1931", &observer, NULL) != MTM_OK) return colors;
     for (int i = 0; i < palette->light_count && i < MTM_LIGHTS_MAX; i++) {
         weights[i] = 1;
         const mtm_spectrum light = mtm_palette_mix(palette, weights, 1);
-        const mtm_illumination illumination = mtm_illumination_of(&light, &observer, 0);
+        const mtm_illumination illumination = mtm_illumination_of(&light, &who->observer, who->adapted_y);
         const mtm_rgb rgb = mtm_illuminate(&illumination, &material->reflectance);
         const double encoded[3] = {mtm_srgb_encode(rgb.r), mtm_srgb_encode(rgb.g), mtm_srgb_encode(rgb.b)};
         (void)json_object_set_new(colors, palette->lights[i].name, make_numbers(3, encoded));
@@ -55,21 +60,22 @@ static json_t *describe_colors(const mtm_palette *palette, const mtm_material *m
     return colors;
 }
 
-static json_t *describe_materials(const mtm_palette *palette) {
+static json_t *describe_materials(const mtm_palette *palette, const onlooker *who) {
     json_t *materials = json_array();
     for (int i = 0; i < palette->material_count; i++)
-        (void)json_array_append_new(materials, json_pack("{s:s, s:o}", "name", palette->materials[i].name,
-                                                         "srgb_picture",
-                                                         describe_colors(palette, &palette->materials[i])));
+        (void)json_array_append_new(
+            materials, json_pack("{s:s, s:o}", "name", palette->materials[i].name, "srgb_picture",
+                                 describe_colors(palette, who, &palette->materials[i])));
     return materials;
 }
 
-static json_t *describe_palette(const mtm_palette *palette) {
+static json_t *describe_palette(const mtm_palette *palette, const mtm_observer *observer) {
+    const onlooker who = {.observer = *observer};
     json_t *lights = json_array();
     for (int i = 0; i < palette->light_count; i++)
         (void)json_array_append_new(lights, json_string(palette->lights[i].name));
-    return json_pack("{s:s, s:o, s:o}", "kind", "palette", "materials", describe_materials(palette), "lights",
-                     lights);
+    return json_pack("{s:s, s:o, s:o}", "kind", "palette", "materials", describe_materials(palette, &who),
+                     "lights", lights);
 }
 
 static json_t *describe_weights(const mtm_scene *scene, const mtm_light_mix *mix) {
@@ -80,11 +86,12 @@ static json_t *describe_weights(const mtm_scene *scene, const mtm_light_mix *mix
 }
 
 static json_t *describe_scene(const mtm_scene *scene) {
+    const onlooker who = {scene->observer, scene->is_white_adapted ? 1 : 0};
     json_t *stops = json_array();
     for (int i = 0; i < scene->stop_count; i++)
         (void)json_array_append_new(stops, json_string(scene->stops[i].name));
     return json_pack("{s:s, s:s?, s:o, s:o, s:f, s:o, s:s, s:s, s:[i,i], s:i}", "kind", "scene", "volume",
-                     scene->volume_file, "materials", describe_materials(&scene->palette), "weights",
+                     scene->volume_file, "materials", describe_materials(&scene->palette, &who), "weights",
                      describe_weights(scene, &scene->lights), "intensity", scene->lights.intensity, "stops",
                      stops, "renderer", scene->renderer, "basis", scene->basis, "size", scene->render.width,
                      scene->render.height, "points", scene->point_count);
@@ -160,7 +167,9 @@ static mtm_status describe_json_file(const char *path, json_t **object, mtm_erro
     mtm_status status =
         is_palette ? mtm_palette_read(path, &palette, error) : mtm_scene_read(path, &scene, error);
     if (status == MTM_OK && is_palette) {
-        *object = describe_palette(&palette);
+        mtm_observer observer;
+        status = mtm_observer_get("cie1931", &observer, error);
+        if (status == MTM_OK) *object = describe_palette(&palette, &observer);
         mtm_palette_free(&palette);
     } else if (status == MTM_OK) {
         *object = describe_scene(scene);
@@ -216,7 +225,8 @@ static void print_plain(const json_t *object, int indent) {
             for (size_t i = 0; i < json_array_size(value); i++)
                 print_plain(json_array_get(value, i), indent + 2);
         } else if (json_is_string(value)) {
-            (void)printf("%s\n", json_string_value(value));
+            print_plainly(stdout, json_string_value(value));
+            (void)printf("\n");
         } else {
             (void)json_dumpf(value, stdout, JSON_ENCODE_ANY | JSON_REAL_PRECISION(6));
             (void)printf("\n");
@@ -245,7 +255,8 @@ static int run(const subcommand *command, int argc, char **argv) {
     json_t *object = NULL;
     if (describe_file(path, &object, &error) != MTM_OK) return fail_command(command, &error);
     if (object == NULL) {
-        (void)snprintf(error.message, sizeof error.message, "%s: cannot be described: out of memory", path);
+        (void)snprintf(error.message, sizeof error.message,
+                       "%s: cannot be described: out of memory, or a text that is not UTF-8", path);
         return fail_command(command, &error);
     }
     (void)json_object_set_new(object, "file", make_text(path));

@@ -14,6 +14,20 @@ VALUES = {"int8": [-128, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 127], "uint8": list(rang
 
 
 class Info(support.CliTest):
+    def test_colors_are_those_of_the_scene_s_observer(self):
+        scene = support.make_scene()
+        scene["palette"]["materials"] = [{"name": "one", "values": [1] * 81}, *support.MATERIALS]
+        self.write_json("plain.json", scene)
+        scene["observer"] = "cie1964"
+        self.write_json("wide.json", scene)
+        scene["white"] = "light"
+        self.write_json("adapted.json", scene)
+        plain, wide, adapted = (self.json_of("info", f"{name}.json")["materials"][0]["srgb_picture"]
+                                for name in ("plain", "wide", "adapted"))
+        self.assertNotEqual(plain["tube"], wide["tube"])
+        for light in ("day", "lamp", "tube"):
+            self.assertTrue(all(value > 0.999 for value in adapted[light]), adapted)
+
     def test_a_volume(self):
         support.write_nrrd(self.path("v.nrrd"), SIZE, VALUES["int16"], "int16", fields=[
             "space: left-posterior-superior", "space directions: (2,0,0) (0,1.5,0) (0,0,1)",
