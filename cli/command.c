@@ -14,11 +14,18 @@ argument_walk walk_arguments(const subcommand *command, int argc, char **argv) {
     return (argument_walk){.command = command, .count = argc, .texts = argv};
 }
 
+void print_plainly(FILE *stream, const char *text) {
+    for (; *text != '\0'; text++)
+        (void)fputc((unsigned char)*text < ' ' || *text == 0x7F ? '?' : *text, stream);
+}
+
 void fail_usage(argument_walk *walk, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     (void)fprintf(stderr, "metamer %s: ", walk->command->name);
-    (void)vfprintf(stderr, format, arguments);
+    char message[1024];
+    (void)vsnprintf(message, sizeof message, format, arguments);
+    print_plainly(stderr, message);
     (void)fprintf(stderr, "; see metamer %s --help\n", walk->command->name);
     va_end(arguments);
     walk->exit_status = EXIT_USAGE;

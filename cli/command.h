@@ -4,6 +4,7 @@
 #define METAMER_CLI_COMMAND_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
 
@@ -42,6 +43,9 @@ bool next_argument(argument_walk *walk, const command_option **option, const cha
 
 /* Whether an option has this name. */
 bool is_option(const command_option *option, const char *name);
+
+/* Prints a text that came from outside: one line, whatever a terminal would do with its control characters. */
+void print_plainly(FILE *stream, const char *text);
 
 /* Reports a mistake in the use of the command and ends the walk. */
 __attribute__((format(printf, 2, 3))) void fail_usage(argument_walk *walk, const char *format, ...);

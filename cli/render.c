@@ -98,6 +98,21 @@ static void note_flat_volume(const subcommand *command, const mtm_volume *volume
         }
 }
 
+/* A basis of few coefficients may part what full spectra merge; worth knowing before a picture is believed. */
+static void note_basis_error(const subcommand *command, const mtm_scene *scene) {
+    const double visible = 2; /* CIEDE2000 */
+    mtm_basis_error largest;
+    if (mtm_scene_basis_error(scene, &largest, NULL) != MTM_OK || largest.ciede2000 < visible) return;
+    (void)fprintf(stderr, "metamer %s: note: basis ", command->name);
+    print_plainly(stderr, scene->basis);
+    (void)fprintf(stderr, " shows \"");
+    print_plainly(stderr, scene->palette.materials[largest.material].name);
+    (void)fprintf(stderr, "\" under \"");
+    print_plainly(stderr, scene->palette.lights[largest.light].name);
+    (void)fprintf(stderr, "\" %.1f CIEDE2000 from its true color; --basis materials is exact\n",
+                  largest.ciede2000);
+}
+
 static int render(const subcommand *command, const render_request *request) {
     mtm_error error = {""};
     mtm_scene *scene = NULL;
@@ -109,6 +124,7 @@ static int render(const subcommand *command, const render_request *request) {
     if (status == MTM_OK) {
         note_flat_volume(command, volume);
         apply_request(request, scene);
+        note_basis_error(command, scene);
         const mtm_progress progress = start_progress(&bar, "rendering");
         status = mtm_scene_render(scene, volume, &progress, &image, &error);
         end_progress(&bar);

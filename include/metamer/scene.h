@@ -113,6 +113,18 @@ MTM_API MTM_CHECK mtm_status mtm_scene_override_palette(mtm_scene *scene, const 
 /* The light, observer and display of the scene. */
 MTM_API mtm_illumination mtm_scene_illumination(const mtm_scene *scene);
 
+/* Where a basis is farthest from full spectra. */
+typedef struct mtm_basis_error {
+    double ciede2000; /* of picture colors, clipped, against D65 */
+    int material, light;
+} mtm_basis_error;
+
+/* The largest color difference between the scene's basis and full spectra over its materials, each alone under one of the
+ * lights alone; 0 for exact bases and where there are no materials or lights. "rgb" is exact under its own light, the
+ * only one it has. MTM_NUMERIC and MTM_MEMORY as mtm_basis_create gives them. */
+MTM_API MTM_CHECK mtm_status mtm_scene_basis_error(const mtm_scene *scene, mtm_basis_error *largest,
+                                                   mtm_error *error);
+
 /* Renders the scene into a new spectral image that carries palette and scene. */
 MTM_API MTM_CHECK mtm_status mtm_scene_render(const mtm_scene *scene, const mtm_volume *volume,
                                               const mtm_progress *progress, mtm_image **image,

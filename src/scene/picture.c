@@ -20,8 +20,8 @@ mtm_illumination mtm_scene_illumination(const mtm_scene *scene) {
     return mtm_illumination_of(&light, &scene->observer, scene->is_white_adapted ? luminance_of(scene) : 0);
 }
 
-/* The basis `name` for the scene's materials under its light. */
-static mtm_status make_basis(const mtm_scene *scene, const char *name, mtm_basis **basis, mtm_error *error) {
+mtm_status mtm_scene_make_basis(const mtm_scene *scene, const char *name, mtm_basis **basis,
+                                mtm_error *error) {
     const mtm_palette *palette = &scene->palette;
     const mtm_illumination illumination = mtm_scene_illumination(scene);
     mtm_spectrum *reflectances = mtm_allocate((size_t)palette->material_count, sizeof *reflectances);
@@ -63,7 +63,7 @@ mtm_status mtm_scene_render(const mtm_scene *scene, const mtm_volume *volume, co
     const double opacity_length = scene->opacity_length > 0
                                       ? scene->opacity_length
                                       : mtm_grid_smallest_spacing(mtm_volume_grid(volume));
-    mtm_status status = make_basis(scene, scene->basis, &basis, error);
+    mtm_status status = mtm_scene_make_basis(scene, scene->basis, &basis, error);
     if (status == MTM_OK)
         status =
             mtm_transfer_create(scene->point_count, scene->points, opacity_length, basis, &transfer, error);
@@ -84,7 +84,7 @@ mtm_status mtm_scene_render(const mtm_scene *scene, const mtm_volume *volume, co
 mtm_status mtm_scene_reconstruction(const mtm_scene *scene, const mtm_image *image, float *rows,
                                     mtm_error *error) {
     mtm_basis *basis = NULL;
-    mtm_status status = make_basis(scene, image->basis, &basis, error);
+    mtm_status status = mtm_scene_make_basis(scene, image->basis, &basis, error);
     if (status == MTM_OK) status = mtm_basis_reconstruction(basis, rows, error);
     mtm_basis_destroy(basis);
     return status;
@@ -140,7 +140,7 @@ static mtm_status make_matrix(const mtm_scene *scene, const mtm_image *image, do
     if (status == MTM_OK && strcmp(image->basis, "rgb") == 0)
         status = mtm_scene_of_image(image, scene->document, &rendered, error);
     if (status == MTM_OK)
-        status = make_basis(rendered != NULL ? rendered : scene, image->basis, &basis, error);
+        status = mtm_scene_make_basis(rendered != NULL ? rendered : scene, image->basis, &basis, error);
     if (status == MTM_OK && mtm_basis_dimension(basis) != image->dimension)
         status = mtm_fail(error, MTM_FORMAT, "%s: has %d coefficients, its palette in basis \"%s\" needs %d",
                           scene->document, image->dimension, image->basis, mtm_basis_dimension(basis));

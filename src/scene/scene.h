@@ -19,6 +19,10 @@ MTM_CHECK mtm_status mtm_light_mix_copy(const mtm_light_mix *mix, int light_coun
                                         mtm_error *error);
 void mtm_light_mix_free(mtm_light_mix *mix);
 
+/* The basis `name` for the scene's materials under its light. */
+MTM_CHECK mtm_status mtm_scene_make_basis(const mtm_scene *scene, const char *name, mtm_basis **basis,
+                                          mtm_error *error);
+
 /* Makes the scene state the volume it is rendered from: name, size and hash. */
 MTM_CHECK mtm_status mtm_scene_state_volume(mtm_scene *scene, const mtm_volume *volume, const char *path,
                                             const char *sha256, mtm_error *error);

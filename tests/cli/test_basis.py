@@ -12,7 +12,8 @@ class Basis(support.CliTest):
         self.write_json("scene.json", self.scene)
 
     def render(self, basis):
-        self.succeed("render", "scene.json", "-o", "image.exr", "--basis", basis)
+        result = self.call("render", "scene.json", "-o", "image.exr", "--basis", basis)
+        self.assertEqual(result.returncode, 0, result.stderr)  # a note on large errors may stand there
         return self.json_of("info", "image.exr")
 
     def difference(self, basis, light):
@@ -37,13 +38,23 @@ class Basis(support.CliTest):
             self.write_json("scene.json", self.scene)
             self.assertEqual(self.render("auto")["basis"], "materials" if count == 6 else "factors:7")
 
-    def test_bases_are_ranked_as_documented(self):
+    def test_more_coefficients_are_nearer_and_sharpened_is_far(self):
         for light in ("FL11", "LED-B3"):
             nine, seven = self.difference("factors:9", light), self.difference("factors:7", light)
             self.assertLess(nine, 0.3)
             self.assertLess(seven, 0.5)
             self.assertGreater(seven, 0)
             self.assertGreater(self.difference("sharpened:7", light), 2 * seven)
+
+    def test_a_basis_that_shows_other_colors_says_so(self):
+        band = [1 if 540 <= nm <= 550 else 0 for nm in range(380, 781, 5)]
+        self.scene["palette"]["materials"][1] = {"name": "shell", "values": band}
+        self.write_json("scene.json", self.scene)
+        result = self.call("render", "scene.json", "-o", "image.exr", "--basis", "factors:7")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, r"note: basis factors:7 shows \"shell\" under \"\w+\" \d+\.\d CIEDE2000")
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+        self.succeed("render", "scene.json", "-o", "image.exr", "--basis", "materials")
 
     def test_dimensions_are_checked(self):
         for basis in ("factors:2", "factors:10", "sharpened:x", "wavelengths:7"):
