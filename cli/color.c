@@ -157,7 +157,8 @@ static mtm_status filter_light(const color_request *request, const mtm_spectrum_
                              request->through[i], error);
     if (status != MTM_OK) return status;
     return request->through_count == 0
-               ? name_option(scale_light(v, error), "--illuminant", request->illuminant, error)
+               ? name_option(scale_light(v, error), "--observer", request->observer,
+                             error) /* blind to the light */
                : name_option(scale_light(v, error), "--through", "the filtered light", error);
 }
 
@@ -383,7 +384,8 @@ static void print_table(const json_t *document, bool is_camera) {
         (void)printf(" %8s %8s %8s %8s %8s %8s  %s\n", "X", "Y", "Z", "L*", "a*", "b*", "sRGB");
     json_array_foreach(colors, i, color) {
         const char *name = json_string_value(json_object_get(color, "name"));
-        (void)printf("%s%*s", name, width - width_of(name), "");
+        print_plainly(stdout, name);
+        (void)printf("%*s", width - width_of(name), "");
         print_color(color);
     }
 }

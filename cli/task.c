@@ -13,7 +13,9 @@
 #include <unistd.h>
 
 int fail_command(const subcommand *command, const mtm_error *error) {
-    (void)fprintf(stderr, "metamer %s: %s\n", command->name, error->message);
+    (void)fprintf(stderr, "metamer %s: ", command->name);
+    print_plainly(stderr, error->message);
+    (void)fprintf(stderr, "\n");
     return EXIT_FAILED;
 }
 
@@ -146,8 +148,10 @@ mtm_status open_scene(const char *path, const char *volume_path, mtm_scene **sce
 mtm_status open_illuminant(const char *text, mtm_spectrum *light, mtm_error *error) {
     mtm_observer observer;
     mtm_spectrum normalized;
-    mtm_status status = strchr(text, ':') != NULL ? mtm_spectrum_read(".", text, MTM_KIND_LIGHT, light, error)
-                                                  : mtm_illuminant(text, light, error);
+    const bool is_file =
+        strchr(text, ':') != NULL || has_extension(text, ".csv"); /* which then lacks a column */
+    mtm_status status = is_file ? mtm_spectrum_read(".", text, MTM_KIND_LIGHT, light, error)
+                                : mtm_illuminant(text, light, error);
     if (status == MTM_OK) status = mtm_observer_get("cie1931", &observer, error);
     return status == MTM_OK ? mtm_light_normalize(light, &observer, &normalized, error) : status;
 }

@@ -382,6 +382,13 @@ class Refusals(ColorTest):
         self.refuse("color", OHTA, "--through", "cyam", texts=["'cyan'"])
         self.refuse("color", OHTA, "--through", f"{NIKON}:X", texts=["camera_nikon_d5100.csv", "unknown column 'X'"])
 
+    def test_a_file_without_a_column_is_asked_for_one(self):
+        self.refuse("color", OHTA, "--illuminant", OHTA, texts=["--illuminant", "FILE.csv:COLUMN"])
+
+    def test_control_characters_stay_out_of_messages(self):
+        message = self.refuse("color", OHTA, "--illuminant", "D65\033[31m\n")
+        self.assertTrue(message.isprintable(), message)
+
     def test_bases_that_cannot_encode_a_spectrum(self):
         self.refuse("color", OHTA, "--basis", "rgb", texts=["--basis", "rgb", "no products"])
         self.refuse("color", OHTA, "--basis", "materials", texts=["--basis", "materials", "no products"])
