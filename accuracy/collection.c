@@ -66,12 +66,10 @@ static mtm_status find_table(const char *source_folder, const char *extra_folder
     return fail(error, MTM_LIMIT, "%.64s…: a path too long to be opened", path);
 }
 
-mtm_status collection_append_table(const char *source_folder, const char *table, mtm_spectrum_kind kind,
-                                   collection_part part, collection_list *list, mtm_error *error) {
-    char path[PATH_BYTES];
+mtm_status collection_append_file(const char *path, const char *table, mtm_spectrum_kind kind,
+                                  collection_part part, collection_list *list, mtm_error *error) {
     mtm_spectrum_table columns = {0};
-    mtm_status status = find_table(source_folder, NULL, table, path, error);
-    if (status == MTM_OK) status = mtm_spectrum_table_read(path, &columns, error);
+    mtm_status status = mtm_spectrum_table_read(path, &columns, error);
     for (int i = 0; i < columns.column_count && status == MTM_OK; i++) {
         collection_item item = {.part = part};
         (void)snprintf(item.table, sizeof item.table, "%s", table);
@@ -81,6 +79,13 @@ mtm_status collection_append_table(const char *source_folder, const char *table,
     }
     mtm_spectrum_table_free(&columns);
     return status;
+}
+
+mtm_status collection_append_table(const char *source_folder, const char *table, mtm_spectrum_kind kind,
+                                   collection_part part, collection_list *list, mtm_error *error) {
+    char path[PATH_BYTES];
+    const mtm_status status = find_table(source_folder, NULL, table, path, error);
+    return status == MTM_OK ? collection_append_file(path, table, kind, part, list, error) : status;
 }
 
 /* The C library's exp and pow may differ in their last digits from another's; as floats the values do not. */

@@ -46,6 +46,10 @@ MTM_CHECK mtm_status collection_append_table(const char *source_folder, const ch
                                              mtm_spectrum_kind kind, collection_part part,
                                              collection_list *list, mtm_error *error);
 
+/* The same of any file; the items name `table` as theirs. */
+MTM_CHECK mtm_status collection_append_file(const char *path, const char *table, mtm_spectrum_kind kind,
+                                            collection_part part, collection_list *list, mtm_error *error);
+
 /* Appends one item. MTM_MEMORY. */
 MTM_CHECK mtm_status collection_append(collection_list *list, const collection_item *item, mtm_error *error);
 /* Appends copies of the items that play this part. MTM_MEMORY. */
