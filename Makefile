@@ -7,7 +7,7 @@ SCENE ?= examples/engine/engine.json
 RUNS ?= 5
 export FUZZ_SECONDS
 
-.PHONY: help setup build demo test bench bases format lint asan tsan fuzz install clean
+.PHONY: help setup build demo test bench bases accuracy format lint asan tsan fuzz install clean
 
 help: ## this list
 	@sed -nE 's/^([a-z]+):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -33,6 +33,10 @@ bench: ## how long projecting and relighting take (SCENE=… RUNS=…)
 bases: ## fit the tables of data/bases again, in place
 	@tools/bootstrap --quiet build && tools/build release
 	@build/release/accuracy/fit . data/bases
+
+accuracy: ## measure the bases again into docs/accuracy.md (MORE=folder)
+	@tools/bootstrap --quiet build && tools/build release
+	@build/release/accuracy/report $(if $(MORE),--more '$(MORE)') . docs
 
 format: ## format all C sources in place
 	@tools/bootstrap --quiet && tools/list_files '*.c' '*.h' | xargs clang-format -i
