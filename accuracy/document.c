@@ -44,7 +44,7 @@ static void print_method(FILE *stream, const measurements *made) {
                   "gives; white is the light. Negative parts of a model's color count as 0, as on a\n"
                   "display.\n\n"
                   "- **Lights:** %d that no basis was fitted to, in three classes (smooth, LED,\n"
-                  "  fluorescent) with a third of the draws each; and %d lamps of quite another kind\n"
+                  "  fluorescent) with a third of the draws each; and %d other lamps\n"
                   "  (Houser and others 2013: LED clusters, fluorescent, discharge).\n"
                   "- **Reflectances:** %d of the ColorChecker and of the color evaluation samples\n"
                   "  CES99, the half that no basis was fitted to.\n"
@@ -107,8 +107,9 @@ static void print_lights(FILE *stream, const measurements *made) {
     print_class_table(stream, made);
     (void)fprintf(stream,
                   "## Other lamps\n"
-                  "Each of the %d lamps of [lights_houser401.csv](../data/spectra/lights_houser401.csv)\n"
-                  "on held-out reflectances. No basis was fitted to them.\n\n",
+                  "Each of %d lamps on held-out reflectances: those of the 401 in\n"
+                  "[lights_houser401.csv](../data/spectra/lights_houser401.csv) that no basis was fitted\n"
+                  "to (the others are CIE illuminants, or nearly).\n\n",
                   made->lamp_count);
     print_set_table(stream, made, SET_HOUSER);
 }

@@ -2,6 +2,7 @@
  * All that the accuracy report tells, measured. */
 #include "measure.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,14 +35,40 @@ static mtm_status append_test(const collection_list *from, bool is_munsell, coll
     return status;
 }
 
-static mtm_status read_lamps(const char *source_folder, collection_list *lamps, mtm_error *error) {
+static double dot(const mtm_spectrum *a, const mtm_spectrum *b) {
+    double sum = 0;
+    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++) sum += a->value[i] * b->value[i];
+    return sum;
+}
+
+/* Whether a lamp is, but for its scale, about a light that bases were fitted to. */
+static bool is_trained(const mtm_spectrum *lamp, const collection_list *lights) {
+    static const double cosine_min = 0.999;
+    for (int i = 0; i < lights->count; i++) {
+        const mtm_spectrum *light = &lights->items[i].spectrum;
+        const double cosine = dot(lamp, light) / sqrt(dot(lamp, lamp) * dot(light, light));
+        if (lights->items[i].part == PART_TRAIN && cosine > cosine_min) return true;
+    }
+    return false;
+}
+
+/* Of the 401 lamps, those that are new: CIE illuminants are among them. */
+static mtm_status read_lamps(const char *source_folder, const collection_list *lights, collection_list *lamps,
+                             mtm_error *error) {
     mtm_observer observer;
+    int kept = 0;
     mtm_status status = mtm_observer_get("cie1931", &observer, error);
     if (status == MTM_OK)
         status = collection_append_table(source_folder, "lights_houser401", MTM_KIND_LIGHT, PART_TEST, lamps,
                                          error);
-    for (int i = 0; i < lamps->count && status == MTM_OK; i++)
-        status = mtm_light_normalize(&lamps->items[i].spectrum, &observer, &lamps->items[i].spectrum, error);
+    for (int i = 0; i < lamps->count && status == MTM_OK; i++) {
+        if (is_trained(&lamps->items[i].spectrum, lights)) continue;
+        lamps->items[kept] = lamps->items[i];
+        status =
+            mtm_light_normalize(&lamps->items[kept].spectrum, &observer, &lamps->items[kept].spectrum, error);
+        kept++;
+    }
+    lamps->count = kept;
     return status;
 }
 
@@ -65,7 +92,8 @@ static mtm_status read_spectra(const measure_options *options, material_store *s
         store->reflectance_pools[pool].count =
             store->reflectances.count - store->reflectance_pools[pool].first;
     }
-    if (status == MTM_OK) status = read_lamps(options->source_folder, &store->lamps, error);
+    if (status == MTM_OK)
+        status = read_lamps(options->source_folder, &store->spectra.lights, &store->lamps, error);
     if (status == MTM_OK && options->more_folder != NULL)
         status = read_other(options->more_folder, "reflectance_opstelten215", &store->others[SET_OPSTELTEN],
                             error);

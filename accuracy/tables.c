@@ -78,7 +78,7 @@ void print_headline_table(FILE *stream, const measurements *made) {
                                          "d",
                                          "one reflectance, mean / 95 % / max",
                                          "three, exposure-matched, mean / 95 %",
-                                         "401 other lamps, mean / 95 %",
+                                         "other lamps, mean / 95 %",
                                          "metamers, error of the split",
                                          "pictures, mean / 95 %"};
     static const model_choice choices[] = {
