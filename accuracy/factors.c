@@ -34,10 +34,10 @@ typedef struct light_matrix {
 struct factor_objective {
     const training_set *training;
     factor_curves curves;
-    factor_curves slopes;      /* the gradient with respect to the curves */
-    coefficients *codes;       /* of every reflectance */
-    coefficients *code_slopes; /* the gradient with respect to them */
-    light_matrix *matrices;    /* of every light */
+    factor_curves slopes;             /* the gradient with respect to the curves */
+    coefficients *encoded;            /* of every reflectance */
+    coefficients *coefficient_slopes; /* the gradient with respect to them */
+    light_matrix *matrices;           /* of every light */
     light_matrix *matrix_slopes;
 };
 
@@ -52,11 +52,12 @@ mtm_status factor_objective_create(const training_set *training, int dimension, 
     if (o == NULL) return fail_memory(error, "fit");
     o->training = training;
     o->curves.dimension = dimension;
-    o->codes = calloc((size_t)training->reflectance_count, sizeof *o->codes);
-    o->code_slopes = calloc((size_t)training->reflectance_count, sizeof *o->code_slopes);
+    o->encoded = calloc((size_t)training->reflectance_count, sizeof *o->encoded);
+    o->coefficient_slopes = calloc((size_t)training->reflectance_count, sizeof *o->coefficient_slopes);
     o->matrices = calloc((size_t)training->light_count, sizeof *o->matrices);
     o->matrix_slopes = calloc((size_t)training->light_count, sizeof *o->matrix_slopes);
-    if (o->codes == NULL || o->code_slopes == NULL || o->matrices == NULL || o->matrix_slopes == NULL) {
+    if (o->encoded == NULL || o->coefficient_slopes == NULL || o->matrices == NULL ||
+        o->matrix_slopes == NULL) {
         factor_objective_destroy(o);
         return fail_memory(error, "fit");
     }
@@ -66,8 +67,8 @@ mtm_status factor_objective_create(const training_set *training, int dimension, 
 
 void factor_objective_destroy(factor_objective *objective) {
     if (objective == NULL) return;
-    free(objective->codes);
-    free(objective->code_slopes);
+    free(objective->encoded);
+    free(objective->coefficient_slopes);
     free(objective->matrices);
     free(objective->matrix_slopes);
     free(objective);
@@ -119,7 +120,7 @@ static void encode_reflectances(factor_objective *o) {
         for (int i = 0; i < N; i++)
             for (int j = 0; j < dimension; j++)
                 sums[j] += o->training->reflectances[r].value[i] * o->curves.encode[j][i];
-        memcpy(o->codes[r].value, sums, sizeof sums);
+        memcpy(o->encoded[r].value, sums, sizeof sums);
     }
 }
 
@@ -134,34 +135,34 @@ static void find_matrices(factor_objective *o) {
             }
 }
 
-/* The error of one product, whose code is `code`; adds to the slopes of the light's matrix and writes those of the
- * code. */
-static double add_product(factor_objective *o, int light, const lab_target *target, const double *code,
-                          double *code_slope) {
+/* The error of one product, whose coefficients are `product`; adds to the slopes of the light's matrix and writes those of
+ * the coefficients. */
+static double add_product(factor_objective *o, int light, const lab_target *target, const double *product,
+                          double *coefficient_slope) {
     const int dimension = o->curves.dimension;
     const light_matrix *matrix = &o->matrices[light];
     light_matrix *slope = &o->matrix_slopes[light];
     double xyz[3] = {0, 0, 0};
     double gradient[3];
     for (int c = 0; c < 3; c++)
-        for (int j = 0; j < dimension; j++) xyz[c] += matrix->value[c][j] * code[j];
+        for (int j = 0; j < dimension; j++) xyz[c] += matrix->value[c][j] * product[j];
     const double error = lab_error(target, xyz, gradient);
     for (int j = 0; j < dimension; j++)
-        code_slope[j] = gradient[0] * matrix->value[0][j] + gradient[1] * matrix->value[1][j] +
-                        gradient[2] * matrix->value[2][j];
+        coefficient_slope[j] = gradient[0] * matrix->value[0][j] + gradient[1] * matrix->value[1][j] +
+                               gradient[2] * matrix->value[2][j];
     for (int c = 0; c < 3; c++)
-        for (int j = 0; j < dimension; j++) slope->value[c][j] += gradient[c] * code[j];
+        for (int j = 0; j < dimension; j++) slope->value[c][j] += gradient[c] * product[j];
     return error;
 }
 
-/* The errors of a, a·b and a·b·c for the codes a, b, c of a draw's reflectances. */
+/* The errors of a, a·b and a·b·c for the coefficients a, b, c of a draw's reflectances. */
 static double add_draw(factor_objective *o, const product_draw *draw, const lab_target *targets) {
-    const double *a = o->codes[draw->reflectance[0]].value;
-    const double *b = o->codes[draw->reflectance[1]].value;
-    const double *c = o->codes[draw->reflectance[2]].value;
-    double *a_slope = o->code_slopes[draw->reflectance[0]].value;
-    double *b_slope = o->code_slopes[draw->reflectance[1]].value;
-    double *c_slope = o->code_slopes[draw->reflectance[2]].value;
+    const double *a = o->encoded[draw->reflectance[0]].value;
+    const double *b = o->encoded[draw->reflectance[1]].value;
+    const double *c = o->encoded[draw->reflectance[2]].value;
+    double *a_slope = o->coefficient_slopes[draw->reflectance[0]].value;
+    double *b_slope = o->coefficient_slopes[draw->reflectance[1]].value;
+    double *c_slope = o->coefficient_slopes[draw->reflectance[2]].value;
     double ab[D], abc[D], one_slope[D], two_slope[D], three_slope[D];
     for (int j = 0; j < o->curves.dimension; j++) {
         ab[j] = a[j] * b[j];
@@ -178,13 +179,13 @@ static double add_draw(factor_objective *o, const product_draw *draw, const lab_
     return sum;
 }
 
-/* The slopes of the curves from those of codes and matrices, times `factor`. */
+/* The slopes of the curves from those of coefficients and matrices, times `factor`. */
 static void find_slopes(factor_objective *o, double factor) {
     const training_set *training = o->training;
     memset(&o->slopes, 0, sizeof o->slopes);
     for (int j = 0; j < o->curves.dimension; j++) {
         for (int r = 0; r < training->reflectance_count; r++) {
-            const double slope = factor * o->code_slopes[r].value[j];
+            const double slope = factor * o->coefficient_slopes[r].value[j];
             for (int i = 0; i < N; i++) o->slopes.encode[j][i] += slope * training->reflectances[r].value[i];
         }
         for (int l = 0; l < training->light_count; l++)
@@ -215,7 +216,7 @@ double factor_objective_value(void *objective, const double *variables, double *
     factor_curves_of(o->curves.dimension, variables, &o->curves);
     encode_reflectances(o);
     find_matrices(o);
-    memset(o->code_slopes, 0, (size_t)training->reflectance_count * sizeof *o->code_slopes);
+    memset(o->coefficient_slopes, 0, (size_t)training->reflectance_count * sizeof *o->coefficient_slopes);
     memset(o->matrix_slopes, 0, (size_t)training->light_count * sizeof *o->matrix_slopes);
     double sum = 0;
     for (int n = 0; n < training->draw_count; n++)

@@ -72,8 +72,10 @@ static void *work(void *user) {
         const mtm_status status = fit_dimension(queue, dimension, &error);
         if (status == MTM_OK) continue;
         (void)pthread_mutex_lock(&queue->mutex);
-        queue->status = status;
-        queue->error = error;
+        if (queue->status == MTM_OK) {
+            queue->status = status;
+            queue->error = error;
+        }
         (void)pthread_mutex_unlock(&queue->mutex);
     }
     return NULL;

@@ -34,11 +34,11 @@ static double lab_f(double t, double *slope) {
     return f;
 }
 
-lab_target lab_target_of(const double xyz[3], const double white[3], double exposure) {
+lab_target lab_target_of(const double xyz[3], const double white[3], double gain) {
     lab_target target;
     double slope;
     for (int i = 0; i < 3; i++) {
-        target.scale[i] = exposure / white[i];
+        target.scale[i] = gain / white[i];
         target.f[i] = lab_f(xyz[i] * target.scale[i], &slope);
     }
     const double a = 500 * (target.f[0] - target.f[1]);

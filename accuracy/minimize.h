@@ -10,8 +10,7 @@ typedef double (*minimize_function)(void *user, const double *x, double *gradien
 
 typedef struct minimize_options {
     int iterations_max;
-    double
-        decrease_min; /* stops where the last ten iterations lowered the value by less than this share of it */
+    double decrease_min; /* stops where ten iterations lower the value by less than this share of it */
 } minimize_options;
 
 typedef struct minimize_result {

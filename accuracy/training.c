@@ -98,9 +98,9 @@ static void color_of(const observed_light *light, const mtm_spectrum *reflectanc
     }
 }
 
-/* Products get dark, and errors in the dark hardly count. Half way (the square root) to the exposure that would give
+/* Products get dark, and errors in the dark hardly count. Half way (the square root) to the gain that would give
  * the product the luminance of its first factor, at most 50, they count about as much as those of single reflectances. */
-static double exposure_of(double first_luminance, double luminance) {
+static double gain_of(double first_luminance, double luminance) {
     const double ratio = first_luminance / (luminance > 1e-9 ? luminance : 1e-9);
     return sqrt(ratio < 1 ? 1 : ratio > 50 ? 50 : ratio);
 }
@@ -116,7 +116,7 @@ static void find_targets(const training_set *training, const product_draw *draw,
         product = mtm_spectrum_multiply(&product, &training->reflectances[draw->reflectance[m]]);
         color_of(light, &product, xyz);
         if (m == 0) first_luminance = xyz[1];
-        targets[m] = lab_target_of(xyz, white, exposure_of(first_luminance, xyz[1]));
+        targets[m] = lab_target_of(xyz, white, gain_of(first_luminance, xyz[1]));
     }
 }
 

@@ -122,8 +122,8 @@ static void lights_without_a_color_temperature_are_refused_with_the_reason(void 
     refuse(&light, "below 1000 K");
     assert_ok(mtm_blackbody(1.1e5, &light, &error), error);
     refuse(&light, "above 100000 K");
-    for (int i = 0; i < MTM_SPECTRUM_SAMPLES;
-         i++) /* bluer than any black body: the hottest have the power -4 */
+    /* Bluer than any black body: the hottest have the power -4. */
+    for (int i = 0; i < MTM_SPECTRUM_SAMPLES; i++)
         light.value[i] = pow((MTM_WAVELENGTH_FIRST_NM + i * MTM_WAVELENGTH_STEP_NM) / 560.0, -5);
     refuse(&light, "above 100000 K");
 }
