@@ -2,10 +2,22 @@
 # How every target of this project is compiled.
 include_guard()
 
+# Kernels have a variant per instruction set in one binary (src/base/isa.h): the x86-64 levels where the compiler has
+# them, elsewhere only what the compiler makes by default.
+include(CheckCCompilerFlag)
+set(METAMER_ISA_LEVELS)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+    check_c_compiler_flag(-march=x86-64-v4 METAMER_COMPILER_HAS_X86_64_LEVELS)
+    if(METAMER_COMPILER_HAS_X86_64_LEVELS)
+        set(METAMER_ISA_LEVELS x86-64-v3 x86-64-v4)
+    endif()
+endif()
+
 function(metamer_compile_options target)
     target_compile_features(${target} PUBLIC c_std_17)
     set_target_properties(${target} PROPERTIES C_EXTENSIONS OFF C_VISIBILITY_PRESET hidden)
-    target_compile_definitions(${target} PRIVATE _POSIX_C_SOURCE=200809L)
+    target_compile_definitions(${target} PRIVATE _POSIX_C_SOURCE=200809L
+                               $<$<BOOL:${METAMER_ISA_LEVELS}>:METAMER_HAS_X86_64_LEVELS>)
     # No contraction to fused operations: pictures are the same bits on every compiler and instruction set.
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes
                            -Wmissing-prototypes -Wpointer-arith -Wvla -Wundef -ffp-contract=off)

@@ -53,6 +53,11 @@ MTM_API const char *mtm_version(void);
  * more than 256. */
 MTM_API int mtm_default_thread_count(void);
 
+/* The instruction set that inner loops run with: "baseline", "x86-64-v3" (AVX2) or "x86-64-v4" (AVX-512), the highest
+ * that this machine has, or the lower one that the environment variable METAMER_ISA names. Results are the same bits
+ * with each of them. */
+MTM_API const char *mtm_isa_name(void);
+
 /* Frees text that the library returned as `char *`. NULL is allowed. */
 MTM_API void mtm_text_free(char *text);
 
