@@ -10,8 +10,8 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "color/srgb_levels.h"
 #include "image/png.h"
-#include "metamer/color.h"
 
 enum { COMPRESSION_LEVEL = 6 }; /* stated so that the bytes do not depend on a default */
 
@@ -60,17 +60,17 @@ static bool has_transparency(const mtm_picture *picture) {
     return false;
 }
 
-static unsigned char encode(double linear) {
-    return (unsigned char)lrint(mtm_srgb_encode(linear) * 255.0);
-}
-
 /* Straight color = premultiplied color / alpha, which must not exceed 1; so alpha is at least the largest
  * channel. Over black, color · alpha is then the premultiplied color again. */
-static void encode_pixel(const float *rgba, bool has_alpha, unsigned char *bytes) {
+static void encode_pixel(const mtm_srgb_levels *levels, const float *rgba, bool has_alpha,
+                         unsigned char *bytes) {
     const double rgb[3] = {clip(rgba[0]), clip(rgba[1]), clip(rgba[2])};
     double alpha = 1.0;
     if (has_alpha) alpha = fmax(clip(rgba[3]), fmax(rgb[0], fmax(rgb[1], rgb[2])));
-    for (int i = 0; i < 3; i++) bytes[i] = encode(alpha > 0.0 ? rgb[i] / alpha : 0.0);
+    for (int i = 0; i < 3; i++) {
+        const double straight = alpha > 0.0 ? rgb[i] / alpha : 0.0;
+        bytes[i] = (unsigned char)mtm_srgb_level_of_double(levels, straight);
+    }
     if (has_alpha) bytes[3] = (unsigned char)lrint(alpha * 255.0);
 }
 
@@ -100,11 +100,13 @@ static void write_content(png_writer *writer) {
     png_set_sRGB(writer->png, writer->info, PNG_sRGB_INTENT_RELATIVE);
     if (writer->scene != NULL) write_scene(writer);
     png_write_info(writer->png, writer->info);
+    mtm_srgb_levels levels;
+    mtm_srgb_levels_prepare(&levels);
     const float *rgba = picture->rgba;
     const size_t channels = writer->has_alpha ? 4 : 3;
     for (int y = 0; y < picture->height; y++) {
         for (size_t x = 0; x < (size_t)picture->width; x++, rgba += 4)
-            encode_pixel(rgba, writer->has_alpha, writer->row + x * channels);
+            encode_pixel(&levels, rgba, writer->has_alpha, writer->row + x * channels);
         png_write_row(writer->png, writer->row);
     }
     png_write_end(writer->png, writer->info);
