@@ -25,6 +25,11 @@ MTM_API MTM_CHECK mtm_status mtm_relight(const mtm_image *image, const double *m
                                          const mtm_relight_options *options, mtm_picture **picture,
                                          mtm_error *error);
 
+/* The same as 8-bit sRGB, red, green, blue and alpha, into `rgba` of height × width × 4 bytes: exactly the bytes that
+ * mtm_relight and mtm_picture_write_png make (straight alpha; 255 over a background), in one pass. */
+MTM_API void mtm_relight_bytes(const mtm_image *image, const double *matrix,
+                               const mtm_relight_options *options, unsigned char *rgba);
+
 #ifdef __cplusplus
 }
 #endif

@@ -9,6 +9,18 @@ mtm_relight_options mtm_relight_defaults(void) {
     return (mtm_relight_options){.has_background = true}; /* a picture on black, as the paper's */
 }
 
+mtm_relight_pass mtm_relight_pass_of(int dimension, int lanes, const double *matrix,
+                                     const mtm_relight_options *options) {
+    mtm_relight_pass pass = {.dimension = dimension,
+                             .lanes = lanes,
+                             .is_opaque = options->has_background,
+                             .background = {(float)options->background.r, (float)options->background.g,
+                                            (float)options->background.b}};
+    for (int row = 0; row < 3; row++)
+        for (int i = 0; i < dimension; i++) pass.matrix[row][i] = (float)matrix[row * dimension + i];
+    return pass;
+}
+
 typedef struct row_job {
     const mtm_image *image;
     mtm_picture *picture;
@@ -26,14 +38,8 @@ mtm_status mtm_relight(const mtm_image *image, const double *matrix, const mtm_r
                        mtm_picture **picture, mtm_error *error) {
     mtm_status status = mtm_picture_create(image->width, image->height, picture, error);
     if (status != MTM_OK) return status;
-    row_job job = {.image = image, .picture = *picture};
-    job.pass = (mtm_relight_pass){.dimension = image->dimension,
-                                  .lanes = image->lanes,
-                                  .is_opaque = options->has_background,
-                                  .background = {(float)options->background.r, (float)options->background.g,
-                                                 (float)options->background.b}};
-    for (int row = 0; row < 3; row++)
-        for (int i = 0; i < image->dimension; i++)
-            job.pass.matrix[row][i] = (float)matrix[row * image->dimension + i];
+    row_job job = {.image = image,
+                   .picture = *picture,
+                   .pass = mtm_relight_pass_of(image->dimension, image->lanes, matrix, options)};
     return mtm_parallel_for(options->thread_count, image->height, relight_row, &job, NULL);
 }
