@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/fail.h"
+#include "base/half.h"
 #include "base/memory.h"
 #include "image/exr.h"
 #include "image/exr_layout.h"
@@ -236,20 +237,11 @@ static float float_of_bits(uint32_t bits) {
     return value;
 }
 
-/* IEEE 754 binary16 to binary32, which holds every half exactly. */
-static float float_of_half(uint32_t half) {
-    const uint32_t sign = (half & 0x8000U) << 16;
-    const uint32_t exponent = half >> 10 & 0x1fU;
-    const uint32_t fraction = half & 0x3ffU;
-    if (exponent == 0) return (sign != 0 ? -1.0F : 1.0F) * (float)fraction / 16777216.0F; /* · 2^-24 */
-    if (exponent == 0x1f) return float_of_bits(sign | 0x7f800000U | fraction << 13);
-    return float_of_bits(sign | (exponent + 112) << 23 | fraction << 13);
-}
-
 static void unpack_channel(const uint8_t *bytes, int sample_bytes, int width, float *to,
                            int floats_per_pixel) {
     for (int x = 0; x < width; x++, bytes += sample_bytes, to += floats_per_pixel)
-        *to = sample_bytes == 2 ? float_of_half(integer_of(bytes, 2)) : float_of_bits(integer_of(bytes, 4));
+        *to = sample_bytes == 2 ? mtm_float_of_half((uint16_t)integer_of(bytes, 2))
+                                : float_of_bits(integer_of(bytes, 4));
 }
 
 /* Takes the wanted channels out of a chunk's rows, where each channel's samples stand together. OpenEXR's own
