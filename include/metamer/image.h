@@ -30,6 +30,21 @@ MTM_API MTM_CHECK mtm_status mtm_image_create(int width, int height, int dimensi
                                               mtm_error *error);
 MTM_API void mtm_image_destroy(mtm_image *image);
 
+/* The numbers of a spectral image as halves, for relighting at half the memory and bandwidth: coefficients lose at most
+ * 2^-11 of themselves. */
+typedef struct mtm_half_image {
+    int width, height;
+    int dimension;
+    int lanes;
+    uint16_t *pixels; /* IEEE 754 binary16, height × width × lanes, in mtm_image's order */
+} mtm_half_image;
+
+/* Every number rounded to the nearest half, the even one of two; beyond 65504 to infinity. MTM_MEMORY. Release with
+ * mtm_half_image_destroy (NULL allowed). */
+MTM_API MTM_CHECK mtm_status mtm_half_image_create(const mtm_image *image, mtm_half_image **half,
+                                                   mtm_error *error);
+MTM_API void mtm_half_image_destroy(mtm_half_image *half);
+
 /* A picture: linear sRGB red, green, blue and alpha per pixel, color premultiplied by alpha, not clipped; rows from
  * the top. */
 typedef struct mtm_picture {

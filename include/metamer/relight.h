@@ -29,6 +29,8 @@ MTM_API MTM_CHECK mtm_status mtm_relight(const mtm_image *image, const double *m
  * mtm_relight and mtm_picture_write_png make (straight alpha; 255 over a background), in one pass. */
 MTM_API void mtm_relight_bytes(const mtm_image *image, const double *matrix,
                                const mtm_relight_options *options, unsigned char *rgba);
+MTM_API void mtm_relight_half_bytes(const mtm_half_image *image, const double *matrix,
+                                    const mtm_relight_options *options, unsigned char *rgba);
 
 #ifdef __cplusplus
 }

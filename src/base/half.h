@@ -3,7 +3,6 @@
 #ifndef METAMER_BASE_HALF_H
 #define METAMER_BASE_HALF_H
 
-#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -25,8 +24,8 @@ static inline float mtm_float_of_half(uint16_t half) {
     return value;
 }
 
-static inline void mtm_floats_of_halves(size_t count, const uint16_t *halves, float *floats) {
-    size_t i = 0;
+static inline void mtm_floats_of_halves(int count, const uint16_t *halves, float *floats) {
+    int i = 0;
 #ifdef __AVX512F__
     for (; i + 16 <= count; i += 16)
         _mm512_storeu_ps(floats + i, _mm512_cvtph_ps(_mm256_loadu_si256((const __m256i *)(halves + i))));

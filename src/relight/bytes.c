@@ -9,23 +9,22 @@ enum { BAND_PIXELS = 8192 }; /* about: a task should outweigh its claim */
 static const mtm_bytes_kernel *const kernels[] = MTM_ISA_LIST(mtm_bytes_kernel);
 
 typedef struct band_job {
-    const mtm_image *image;
+    int width, height, band_rows;
+    const unsigned char *pixels; /* float or half */
+    size_t pixel_bytes;
     unsigned char *rgba;
-    int band_rows;
-    const mtm_bytes_kernel *kernel;
+    void (*relight)(const mtm_bytes_pass *pass, const void *pixels, size_t count, unsigned char *rgba);
     mtm_bytes_pass pass;
 } band_job;
 
 /* A band's rows lie one behind the other, as pixels of one long row. */
 static void relight_band(void *context, int band) {
     const band_job *job = context;
-    const mtm_image *image = job->image;
     const int first_row = band * job->band_rows;
-    const int rows = first_row + job->band_rows <= image->height ? job->band_rows : image->height - first_row;
-    const size_t first = (size_t)first_row * (size_t)image->width;
-    const size_t count = (size_t)rows * (size_t)image->width;
-    job->kernel->relight_floats(&job->pass, image->pixels + first * (size_t)image->lanes, count,
-                                job->rgba + first * 4);
+    const int rows = first_row + job->band_rows <= job->height ? job->band_rows : job->height - first_row;
+    const size_t first = (size_t)first_row * (size_t)job->width;
+    const size_t count = (size_t)rows * (size_t)job->width;
+    job->relight(&job->pass, job->pixels + first * job->pixel_bytes, count, job->rgba + first * 4);
 }
 
 static void prepare_pass(mtm_bytes_pass *pass) {
@@ -37,16 +36,34 @@ static void prepare_pass(mtm_bytes_pass *pass) {
     pass->empty[3] = 255;
 }
 
+static void relight_bands(band_job *job, int thread_count) {
+    prepare_pass(&job->pass);
+    job->band_rows = job->width < BAND_PIXELS ? BAND_PIXELS / job->width : 1;
+    const int band_count = (job->height + job->band_rows - 1) / job->band_rows;
+    const mtm_status status = mtm_parallel_for(thread_count, band_count, relight_band, job, NULL);
+    (void)status; /* without a progress callback nothing can stop it */
+}
+
 void mtm_relight_bytes(const mtm_image *image, const double *matrix, const mtm_relight_options *options,
                        unsigned char *rgba) {
-    const int band_rows = image->width < BAND_PIXELS ? BAND_PIXELS / image->width : 1;
-    const int band_count = (image->height + band_rows - 1) / band_rows;
-    band_job job = {.image = image,
+    band_job job = {.width = image->width,
+                    .height = image->height,
+                    .pixels = (const unsigned char *)image->pixels,
+                    .pixel_bytes = (size_t)image->lanes * sizeof *image->pixels,
                     .rgba = rgba,
-                    .band_rows = band_rows,
-                    .kernel = kernels[mtm_isa_chosen()],
+                    .relight = kernels[mtm_isa_chosen()]->relight_floats,
                     .pass.relight = mtm_relight_pass_of(image->dimension, image->lanes, matrix, options)};
-    prepare_pass(&job.pass);
-    const mtm_status status = mtm_parallel_for(options->thread_count, band_count, relight_band, &job, NULL);
-    (void)status; /* without a progress callback nothing can stop it */
+    relight_bands(&job, options->thread_count);
+}
+
+void mtm_relight_half_bytes(const mtm_half_image *image, const double *matrix,
+                            const mtm_relight_options *options, unsigned char *rgba) {
+    band_job job = {.width = image->width,
+                    .height = image->height,
+                    .pixels = (const unsigned char *)image->pixels,
+                    .pixel_bytes = (size_t)image->lanes * sizeof *image->pixels,
+                    .rgba = rgba,
+                    .relight = kernels[mtm_isa_chosen()]->relight_halves,
+                    .pass.relight = mtm_relight_pass_of(image->dimension, image->lanes, matrix, options)};
+    relight_bands(&job, options->thread_count);
 }

@@ -3,17 +3,25 @@
  * loops over a block are vector instructions of any width. Blocks that hold nothing cost no product. */
 #include "relight/bytes_kernel.h"
 
-enum { BLOCK = 16 }; /* pixels */
+#include "base/half.h"
+
+enum { BLOCK = 16, BLOCK_NUMBERS_MAX = BLOCK * (MTM_DIMENSION_MAX + 1) }; /* pixels, their numbers */
 
 typedef struct pixel_block {
     float rgb[3][BLOCK];
     float alpha[BLOCK];
 } pixel_block;
 
-static inline bool is_empty(const float *pixels, int count) {
-    int lit = 0;
-    for (int i = 0; i < count; i++) lit |= pixels[i] != 0;
-    return lit == 0;
+static inline bool are_floats_zero(const float *numbers, int count) {
+    int found = 0;
+    for (int i = 0; i < count; i++) found |= numbers[i] != 0;
+    return found == 0;
+}
+
+static inline bool are_halves_zero(const uint16_t *numbers, int count) {
+    uint16_t found = 0;
+    for (int i = 0; i < count; i++) found |= numbers[i];
+    return (found & 0x7fffU) == 0;
 }
 
 /* The sums in the order of mtm_relight_pixels. */
@@ -74,12 +82,8 @@ static inline void encode_straight(const mtm_bytes_pass *pass, const pixel_block
     }
 }
 
-static inline void relight_block(const mtm_bytes_pass *pass, const float *pixels, int lanes,
-                                 unsigned char *rgba) {
-    if (is_empty(pixels, BLOCK * lanes)) {
-        for (int n = 0; n < BLOCK; n++) memcpy(rgba + (ptrdiff_t)4 * n, pass->empty, 4);
-        return;
-    }
+static inline void light_block(const mtm_bytes_pass *pass, const float *pixels, int lanes,
+                               unsigned char *rgba) {
     pixel_block block;
     multiply(&pass->relight, pixels, lanes, &block);
     if (pass->relight.is_opaque)
@@ -88,29 +92,55 @@ static inline void relight_block(const mtm_bytes_pass *pass, const float *pixels
         encode_straight(pass, &block, rgba);
 }
 
+static inline void relight_block(const mtm_bytes_pass *pass, const void *pixels, bool is_half, int lanes,
+                                 unsigned char *rgba) {
+    const int count = BLOCK * lanes;
+    if (is_half ? are_halves_zero(pixels, count) : are_floats_zero(pixels, count)) {
+        for (int n = 0; n < BLOCK; n++) memcpy(rgba + (ptrdiff_t)4 * n, pass->empty, 4);
+    } else if (is_half) {
+        float floats[BLOCK_NUMBERS_MAX];
+        mtm_floats_of_halves(count, pixels, floats);
+        light_block(pass, floats, lanes, rgba);
+    } else {
+        light_block(pass, pixels, lanes, rgba);
+    }
+}
+
 /* The pixels behind the last whole block are copied into one. */
-static inline void relight_blocks(const mtm_bytes_pass *pass, const float *pixels, int lanes, size_t count,
-                                  unsigned char *rgba) {
+static inline void relight_blocks(const mtm_bytes_pass *pass, const void *pixels, bool is_half, int lanes,
+                                  size_t count, unsigned char *rgba) {
+    const unsigned char *from = pixels;
+    const size_t pixel_bytes = (size_t)lanes * (is_half ? sizeof(uint16_t) : sizeof(float));
     const size_t whole = count - count % BLOCK;
     for (size_t n = 0; n < whole; n += BLOCK)
-        relight_block(pass, pixels + n * (size_t)lanes, lanes, rgba + 4 * n);
+        relight_block(pass, from + n * pixel_bytes, is_half, lanes, rgba + 4 * n);
     if (whole == count) return;
-    float rest[BLOCK * (MTM_DIMENSION_MAX + 1)] = {0};
+    float rest[BLOCK_NUMBERS_MAX] = {0};
     unsigned char rest_rgba[BLOCK * 4];
-    memcpy(rest, pixels + whole * (size_t)lanes, (count - whole) * (size_t)lanes * sizeof *rest);
-    relight_block(pass, rest, lanes, rest_rgba);
+    memcpy(rest, from + whole * pixel_bytes, (count - whole) * pixel_bytes);
+    relight_block(pass, rest, is_half, lanes, rest_rgba);
     memcpy(rgba + 4 * whole, rest_rgba, 4 * (count - whole));
 }
 
 /* With the number of lanes known the compiler unrolls what runs over them. */
-static void relight_floats(const mtm_bytes_pass *pass, const float *pixels, size_t count,
-                           unsigned char *rgba) {
+static inline void relight_pixels(const mtm_bytes_pass *pass, const void *pixels, bool is_half, size_t count,
+                                  unsigned char *rgba) {
     switch (pass->relight.lanes) {
-    case 4: relight_blocks(pass, pixels, 4, count, rgba); break;
-    case 8: relight_blocks(pass, pixels, 8, count, rgba); break;
-    case 16: relight_blocks(pass, pixels, 16, count, rgba); break;
-    default: relight_blocks(pass, pixels, pass->relight.lanes, count, rgba);
+    case 4: relight_blocks(pass, pixels, is_half, 4, count, rgba); break;
+    case 8: relight_blocks(pass, pixels, is_half, 8, count, rgba); break;
+    case 16: relight_blocks(pass, pixels, is_half, 16, count, rgba); break;
+    default: relight_blocks(pass, pixels, is_half, pass->relight.lanes, count, rgba);
     }
 }
 
-const mtm_bytes_kernel MTM_OF_ISA(mtm_bytes_kernel) = {.relight_floats = relight_floats};
+static void relight_floats(const mtm_bytes_pass *pass, const void *pixels, size_t count,
+                           unsigned char *rgba) {
+    relight_pixels(pass, pixels, false, count, rgba);
+}
+
+static void relight_halves(const mtm_bytes_pass *pass, const void *pixels, size_t count,
+                           unsigned char *rgba) {
+    relight_pixels(pass, pixels, true, count, rgba);
+}
+
+const mtm_bytes_kernel MTM_OF_ISA(mtm_bytes_kernel) = {relight_floats, relight_halves};

@@ -16,8 +16,8 @@ typedef struct mtm_bytes_pass {
 /* Like mtm_relight_pixels and then the PNG writer's encoding, bit for bit: `count` pixels of `lanes` numbers to as many
  * of red, green, blue, alpha. */
 typedef struct mtm_bytes_kernel {
-    void (*relight_floats)(const mtm_bytes_pass *pass, const float *pixels, size_t count,
-                           unsigned char *rgba);
+    void (*relight_floats)(const mtm_bytes_pass *pass, const void *pixels, size_t count, unsigned char *rgba);
+    void (*relight_halves)(const mtm_bytes_pass *pass, const void *pixels, size_t count, unsigned char *rgba);
 } mtm_bytes_kernel;
 
 MTM_ISA_DECLARE(mtm_bytes_kernel, mtm_bytes_kernel);

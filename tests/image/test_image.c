@@ -27,6 +27,24 @@ static void a_new_image_is_black_and_owns_its_texts(void **state) {
     mtm_image_destroy(NULL);
 }
 
+static void an_image_of_halves_has_the_rounded_numbers(void **state) {
+    (void)state;
+    mtm_error error;
+    mtm_image *image = NULL;
+    mtm_half_image *half = NULL;
+    assert_ok(mtm_image_create(3, 2, 4, "materials", NULL, NULL, &image, &error), error);
+    image->pixels[0] = 1;
+    image->pixels[9] = -0.1F;
+    image->pixels[47] = 1e6F;
+    assert_ok(mtm_half_image_create(image, &half, &error), error);
+    assert_true(half->width == 3 && half->height == 2 && half->dimension == 4 && half->lanes == 8);
+    for (int i = 0; i < 3 * 2 * 8; i++)
+        assert_int_equal(half->pixels[i], i == 0 ? 0x3c00 : i == 9 ? 0xae66 : i == 47 ? 0x7c00 : 0);
+    mtm_half_image_destroy(half);
+    mtm_half_image_destroy(NULL);
+    mtm_image_destroy(image);
+}
+
 static void a_new_picture_is_transparent(void **state) {
     (void)state;
     mtm_error error;
@@ -41,6 +59,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lanes_hold_the_coefficients_and_alpha),
         cmocka_unit_test(a_new_image_is_black_and_owns_its_texts),
+        cmocka_unit_test(an_image_of_halves_has_the_rounded_numbers),
         cmocka_unit_test(a_new_picture_is_transparent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,6 +4,7 @@
 #define _XOPEN_SOURCE 700
 #include <png.h>
 
+#include "base/half.h"
 #include "base/isa.h"
 #include "fixture.h"
 
@@ -64,8 +65,10 @@ static void make_expected(const mtm_image *image, const double *matrix, const mt
     mtm_picture_destroy(picture);
 }
 
-/* Every instruction set makes the expected bytes and touches none behind them. */
-static void check(const mtm_image *image, const double *matrix, const mtm_relight_options *options) {
+/* Relit from `half` where that is not NULL, which holds what `image` holds. Every instruction set makes the expected
+ * bytes and touches none behind them. */
+static void check(const mtm_image *image, const mtm_half_image *half, const double *matrix,
+                  const mtm_relight_options *options) {
     static unsigned char expected[PIXELS_MAX * 4];
     static unsigned char rgba[PIXELS_MAX * 4 + 64];
     const size_t bytes = (size_t)image->width * (size_t)image->height * 4;
@@ -73,25 +76,41 @@ static void check(const mtm_image *image, const double *matrix, const mtm_religh
     for (mtm_isa isa = MTM_ISA_BASELINE; isa <= mtm_isa_highest(); isa++) {
         assert_int_equal(setenv("METAMER_ISA", isa_names[isa], 1), 0);
         memset(rgba, 123, sizeof rgba);
-        mtm_relight_bytes(image, matrix, options, rgba);
+        if (half == NULL)
+            mtm_relight_bytes(image, matrix, options, rgba);
+        else
+            mtm_relight_half_bytes(half, matrix, options, rgba);
         for (size_t i = 0; i < bytes; i++)
             if (rgba[i] != expected[i])
-                fail_msg("%s, %d x %d, %d coefficients: byte %zu is %d, not %d", mtm_isa_name(), image->width,
-                         image->height, image->dimension, i, rgba[i], expected[i]);
+                fail_msg("%s, %s, %d x %d, %d coefficients: byte %zu is %d, not %d", mtm_isa_name(),
+                         half == NULL ? "floats" : "halves", image->width, image->height, image->dimension, i,
+                         rgba[i], expected[i]);
         for (size_t i = bytes; i < bytes + 64; i++) assert_int_equal(rgba[i], 123);
     }
     assert_int_equal(unsetenv("METAMER_ISA"), 0);
 }
 
 /* On black, over a color, and with alpha. */
-static void check_backgrounds(const mtm_image *image, const double *matrix) {
+static void check_backgrounds(const mtm_image *image, const mtm_half_image *half, const double *matrix) {
     mtm_relight_options options = mtm_relight_defaults();
     options.thread_count = 1;
-    check(image, matrix, &options);
+    check(image, half, matrix, &options);
     options.background = (mtm_rgb){0.25, 0.0021, 1.5};
-    check(image, matrix, &options);
+    check(image, half, matrix, &options);
     options.has_background = false;
-    check(image, matrix, &options);
+    check(image, half, matrix, &options);
+}
+
+/* From floats, and, with the image's numbers rounded in place, from halves. */
+static void check_floats_and_halves(mtm_image *image, const double *matrix) {
+    mtm_error error;
+    mtm_half_image *half = NULL;
+    check_backgrounds(image, NULL, matrix);
+    assert_ok(mtm_half_image_create(image, &half, &error), error);
+    for (int n = 0; n < image->width * image->height * image->lanes; n++)
+        image->pixels[n] = mtm_float_of_half(half->pixels[n]);
+    check_backgrounds(image, half, matrix);
+    mtm_half_image_destroy(half);
 }
 
 static void every_dimension_gives_the_nearest_levels(void **state) {
@@ -100,7 +119,7 @@ static void every_dimension_gives_the_nearest_levels(void **state) {
     for (int d = 0; d < DIMENSIONS; d++) {
         mtm_image *image = make_image(37, 31, dimensions[d]);
         make_matrix(dimensions[d], matrix);
-        check_backgrounds(image, matrix);
+        check_floats_and_halves(image, matrix);
         mtm_image_destroy(image);
     }
 }
@@ -112,7 +131,7 @@ static void every_width_gives_the_nearest_levels(void **state) {
         for (int d = 1; d < 4; d++) {
             mtm_image *image = make_image(width, 1, dimensions[d]);
             make_matrix(dimensions[d], matrix);
-            check_backgrounds(image, matrix);
+            check_floats_and_halves(image, matrix);
             mtm_image_destroy(image);
         }
     }
@@ -136,7 +155,7 @@ static void floats_next_to_a_threshold_round_as_the_curve(void **state) {
         }
         pixel[3] = n % 2 == 0 ? 1 : near;
     }
-    check_backgrounds(image, matrix);
+    check_floats_and_halves(image, matrix);
     mtm_image_destroy(image);
 }
 
@@ -156,7 +175,22 @@ static void coefficients_that_are_no_colors_are_clipped(void **state) {
             image->pixels[n] = special[next_random(&random) % (uint32_t)count];
         }
         make_matrix(dimensions[d], matrix);
-        check_backgrounds(image, matrix);
+        check_floats_and_halves(image, matrix);
+        mtm_image_destroy(image);
+    }
+}
+
+/* Whichever it is of the numbers of a block, and whichever bit of it is not 0. */
+static void one_number_is_enough_for_a_pixel(void **state) {
+    (void)state;
+    const float values[] = {0x1p-24F, 0x1p-14F, 0.25F, 2, -2};
+    double matrix[3 * 7];
+    make_matrix(7, matrix);
+    for (int i = 0; i < 16 * 8; i++) {
+        mtm_image *image = make_image(16, 1, 7);
+        memset(image->pixels, 0, sizeof(float) * 16 * 8);
+        image->pixels[i] = values[i % 5];
+        check_floats_and_halves(image, matrix);
         mtm_image_destroy(image);
     }
 }
@@ -214,6 +248,7 @@ int main(void) {
         cmocka_unit_test(every_width_gives_the_nearest_levels),
         cmocka_unit_test(floats_next_to_a_threshold_round_as_the_curve),
         cmocka_unit_test(coefficients_that_are_no_colors_are_clipped),
+        cmocka_unit_test(one_number_is_enough_for_a_pixel),
         cmocka_unit_test(the_bytes_are_those_of_the_png),
         cmocka_unit_test(the_bytes_do_not_depend_on_the_number_of_threads),
     };
