@@ -26,9 +26,10 @@ test: ## everything before a commit: all tests, lint, all tests again under ASan
 	@tools/check release && tools/lint && tools/check asan
 	@echo "make test: all passed"
 
-bench: ## how long projecting and relighting take (SCENE=… RUNS=…)
+bench: ## how long projecting and relighting take (SCENE=… RUNS=…), how fast relighting is
 	@tools/bootstrap --quiet build && tools/build release
 	@build/release/bench/frames $(SCENE) $(RUNS)
+	@build/release/bench/relight
 
 bases: ## fit the tables of data/bases again, in place
 	@tools/bootstrap --quiet build && tools/build release
