@@ -28,12 +28,11 @@ static void relight_band(void *context, int band) {
 }
 
 static void prepare_pass(mtm_bytes_pass *pass) {
+    unsigned char empty[4] = {0, 0, 0, 255};
     mtm_srgb_levels_prepare(&pass->levels);
-    memset(pass->empty, 0, sizeof pass->empty);
-    if (!pass->relight.is_opaque) return;
     for (int i = 0; i < 3; i++)
-        pass->empty[i] = (unsigned char)mtm_srgb_level(&pass->levels, pass->relight.background[i]);
-    pass->empty[3] = 255;
+        empty[i] = (unsigned char)mtm_srgb_level(&pass->levels, pass->relight.background[i]);
+    if (pass->relight.is_opaque) memcpy(&pass->empty, empty, sizeof empty);
 }
 
 static void relight_bands(band_job *job, int thread_count) {

@@ -10,7 +10,7 @@
 typedef struct mtm_bytes_pass {
     mtm_relight_pass relight;
     mtm_srgb_levels levels;
-    unsigned char empty[4]; /* a pixel that holds nothing */
+    int32_t empty; /* the bytes of a pixel that holds nothing */
 } mtm_bytes_pass;
 
 /* Like mtm_relight_pixels and then the PNG writer's encoding, bit for bit: `count` pixels of `lanes` numbers to as many
