@@ -77,7 +77,7 @@ MTM_API MTM_CHECK mtm_status mtm_image_write(const mtm_image *image, const char 
  * without coefficients or with an unknown layout, MTM_LIMIT, MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_image_read(const char *path, mtm_image **image, mtm_error *error);
 
-/* Writes an 8-bit sRGB PNG: colors clipped to 0..1 and encoded here and only here. RGB where every alpha is 1, else
+/* Writes an 8-bit sRGB PNG: colors clipped to 0..1 and encoded. RGB where every alpha is 1, else
  * RGBA with straight alpha (raised to the largest color channel where light was added without covering anything,
  * so that the picture over black stays the same). `scene` (NULL: none) is embedded as iTXt chunk "metamer.scene".
  * The same picture and scene give the same bytes. MTM_IO, MTM_MEMORY; nothing is left behind on

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * Writes a picture as PNG: the only place where colors are clipped and encoded. */
+ * Writes a picture as PNG, clipped and encoded. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
