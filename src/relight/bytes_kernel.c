@@ -52,11 +52,6 @@ MTM_INLINE void add_background(const mtm_relight_pass *pass, pixel_block *block)
             block->rgb[channel][n] += (1 - block->alpha[n]) * pass->background[channel];
 }
 
-MTM_INLINE void put_pixel(uint32_t r, uint32_t g, uint32_t b, uint32_t a, unsigned char *rgba) {
-    const unsigned char bytes[4] = {(unsigned char)r, (unsigned char)g, (unsigned char)b, (unsigned char)a};
-    memcpy(rgba, bytes, sizeof bytes);
-}
-
 #if MTM_VECTOR_WIDTH > 4
 /* At e mod 16: 255 · 1.055 · 2^13 · 2^((e − 127) · 5/12), for floats with the exponent e = 118 … 126. */
 static const float factors[16] = {
@@ -83,9 +78,32 @@ MTM_INLINE mtm_vector_int approximate_level(mtm_vector color) {
     return __builtin_convertvector(mtm_vector_choose(x, 0.0031308F, below, above), mtm_vector_int);
 }
 
-/* Within 4 units of a threshold the table decides; that is one color in a thousand of all between 0 and 1. */
-static __attribute__((noinline)) void settle_doubts(const mtm_srgb_levels *levels, const pixel_block *block,
-                                                    uint64_t doubtful, unsigned char *rgba) {
+/* Colors with full alpha; bit n of the result: the n-th pixel is within 4 units of a threshold and remains to be done.
+ * That is one color in a thousand of all between 0 and 1. */
+MTM_INLINE uint64_t encode_certain(float color[3][BLOCK], unsigned char *rgba) {
+    uint64_t doubtful = 0;
+    for (int n = 0; n < BLOCK; n += MTM_VECTOR_WIDTH) {
+        mtm_vector_int packed = (mtm_vector_int){0} | -0x1000000;
+        for (int channel = 0; channel < 3; channel++) {
+            const mtm_vector_int level = approximate_level(mtm_vector_load(color[channel] + n));
+            doubtful |= (uint64_t)mtm_vector_lacks(level, 0x1ff8) << n;
+            packed |= level >> 13 << 8 * channel;
+        }
+        memcpy(rgba + (ptrdiff_t)4 * n, &packed, sizeof packed);
+    }
+    return doubtful;
+}
+#else
+/* Nothing is certain. */
+MTM_INLINE uint64_t encode_certain(float color[3][BLOCK], unsigned char *rgba) {
+    (void)color;
+    memset(rgba, 255, (size_t)4 * BLOCK);
+    return UINT64_MAX;
+}
+#endif
+
+MTM_INLINE void encode_opaque(const mtm_srgb_levels *levels, pixel_block *block, unsigned char *rgba) {
+    uint64_t doubtful = encode_certain(block->rgb, rgba);
     for (; doubtful != 0; doubtful &= doubtful - 1) {
         const int n = __builtin_ctzll(doubtful);
         for (int channel = 0; channel < 3; channel++)
@@ -93,52 +111,42 @@ static __attribute__((noinline)) void settle_doubts(const mtm_srgb_levels *level
     }
 }
 
-MTM_INLINE void encode_opaque(const mtm_srgb_levels *levels, const pixel_block *block, unsigned char *rgba) {
-    uint64_t doubtful = 0;
-    for (int n = 0; n < BLOCK; n += MTM_VECTOR_WIDTH) {
-        mtm_vector_int packed = (mtm_vector_int){0} | -0x1000000;
-        for (int channel = 0; channel < 3; channel++) {
-            const mtm_vector_int level = approximate_level(mtm_vector_load(block->rgb[channel] + n));
-            doubtful |= (uint64_t)mtm_vector_lacks(level, 0x1ff8) << n;
-            packed |= level >> 13 << 8 * channel;
-        }
-        memcpy(rgba + (ptrdiff_t)4 * n, &packed, sizeof packed);
-    }
-    if (doubtful != 0) settle_doubts(levels, block, doubtful, rgba);
-}
-#else
-MTM_INLINE void encode_opaque(const mtm_srgb_levels *levels, const pixel_block *block, unsigned char *rgba) {
-    for (int n = 0; n < BLOCK; n++) {
-        for (int channel = 0; channel < 3; channel++)
-            rgba[4 * n + channel] = (unsigned char)mtm_srgb_level(levels, block->rgb[channel][n]);
-        rgba[4 * n + 3] = 255;
-    }
-}
-#endif
-
 MTM_INLINE float clip(float value) {
     const float positive = value > 0 ? value : 0; /* what is not a number becomes 0 */
     return positive < 1 ? positive : 1;
 }
 
 /* As the PNG writer: alpha is at least the largest channel, so that straight color does not exceed 1. */
-MTM_INLINE void encode_straight(const mtm_srgb_levels *levels, const pixel_block *block,
-                                unsigned char *rgba) {
+MTM_INLINE void clip_block(pixel_block *block) {
     for (int n = 0; n < BLOCK; n++) {
-        float rgb[3];
         float alpha = clip(block->alpha[n]);
         for (int channel = 0; channel < 3; channel++) {
-            rgb[channel] = clip(block->rgb[channel][n]);
-            alpha = rgb[channel] > alpha ? rgb[channel] : alpha;
+            const float color = clip(block->rgb[channel][n]);
+            block->rgb[channel][n] = color;
+            alpha = color > alpha ? color : alpha;
         }
-        uint32_t level[3];
-        for (int channel = 0; channel < 3; channel++) {
-            const double straight = alpha > 0 ? (double)rgb[channel] / alpha : 0;
-            level[channel] = mtm_srgb_level_of_double(levels, straight);
-        }
-        put_pixel(level[0], level[1], level[2], (uint32_t)((double)alpha * 255 + 0.5),
-                  rgba + (ptrdiff_t)4 * n);
+        block->alpha[n] = alpha;
     }
+}
+
+/* The quotient that counts is of doubles; that of floats is so near that what is certain of it is certain. */
+MTM_INLINE void encode_straight(const mtm_srgb_levels *levels, pixel_block *block, unsigned char *rgba) {
+    float straight[3][BLOCK];
+    int32_t alpha[BLOCK];
+    clip_block(block);
+    for (int channel = 0; channel < 3; channel++)
+        for (int n = 0; n < BLOCK; n++)
+            straight[channel][n] = block->rgb[channel][n] / block->alpha[n]; /* 0/0: black */
+    uint64_t doubtful = encode_certain(straight, rgba);
+    for (; doubtful != 0; doubtful &= doubtful - 1) {
+        const int n = __builtin_ctzll(doubtful);
+        for (int channel = 0; channel < 3; channel++) {
+            const double quotient = (double)block->rgb[channel][n] / block->alpha[n];
+            rgba[4 * n + channel] = (unsigned char)mtm_srgb_level_of_double(levels, quotient);
+        }
+    }
+    for (int n = 0; n < BLOCK; n++) alpha[n] = (int32_t)((double)block->alpha[n] * 255 + 0.5);
+    for (int n = 0; n < BLOCK; n++) rgba[4 * n + 3] = (unsigned char)alpha[n];
 }
 
 MTM_INLINE void light_block(const mtm_bytes_pass *pass, const float *pixels, int lanes, unsigned char *rgba) {

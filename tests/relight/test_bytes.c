@@ -159,6 +159,26 @@ static void floats_next_to_a_threshold_round_as_the_curve(void **state) {
     mtm_image_destroy(image);
 }
 
+/* The quotient of a color and alpha next to a threshold, often nearer than the next float. */
+static void straight_color_next_to_a_threshold_rounds_as_the_curve(void **state) {
+    (void)state;
+    mtm_error error;
+    const double matrix[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    mtm_image *image = NULL;
+    uint32_t random = 3;
+    mtm_relight_options options = mtm_relight_defaults();
+    options.has_background = false;
+    assert_ok(mtm_image_create(40, 40, 3, "rgb", NULL, NULL, &image, &error), error);
+    for (int n = 0; n < 40 * 40; n++) {
+        float *pixel = image->pixels + (ptrdiff_t)n * image->lanes;
+        pixel[3] = 0.5F + 0.5F * random_float(&random);
+        for (int i = 0; i < 3; i++)
+            pixel[i] = (float)(pixel[3] * mtm_srgb_decode((next_random(&random) % 255 + 0.5) / 255));
+    }
+    check(image, NULL, matrix, &options);
+    mtm_image_destroy(image);
+}
+
 static void coefficients_that_are_no_colors_are_clipped(void **state) {
     (void)state;
     const float special[] = {NAN,    -NAN,           INFINITY, -INFINITY, 3e38F,     -3e38F,
@@ -247,6 +267,7 @@ int main(void) {
         cmocka_unit_test(every_dimension_gives_the_nearest_levels),
         cmocka_unit_test(every_width_gives_the_nearest_levels),
         cmocka_unit_test(floats_next_to_a_threshold_round_as_the_curve),
+        cmocka_unit_test(straight_color_next_to_a_threshold_rounds_as_the_curve),
         cmocka_unit_test(coefficients_that_are_no_colors_are_clipped),
         cmocka_unit_test(one_number_is_enough_for_a_pixel),
         cmocka_unit_test(the_bytes_are_those_of_the_png),
