@@ -83,7 +83,10 @@ MTM_API void mtm_volume_histogram(const mtm_volume *volume, int bin_count, uint6
 MTM_API void mtm_volume_sha256(const mtm_volume *volume, char hex[65]);
 
 /* Reads any volume format this library knows, recognised by content, not by name: NRRD (attached or detached,
- * raw or gzip, NRRD0001 … NRRD0005). Errors name file and field: MTM_IO, MTM_FORMAT, MTM_LIMIT, MTM_MEMORY. */
+ * raw or gzip, NRRD0001 … NRRD0005). Errors name file and field: MTM_IO, MTM_FORMAT, MTM_LIMIT, MTM_MEMORY.
+ * Raw voxels in one file, in the machine's byte order and at a multiple of their size, are mapped, not read: they
+ * take page cache instead of memory. That file must not be changed until mtm_volume_destroy (renaming, removing or
+ * replacing it is no change); after it became shorter, reading voxels raises SIGBUS, as POSIX has it for mmap. */
 MTM_API MTM_CHECK mtm_status mtm_volume_read(const char *path, mtm_volume **volume, mtm_error *error);
 
 typedef struct mtm_volume_write_options {

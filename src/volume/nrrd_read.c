@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * The voxels of a NRRD file, read straight into the volume. */
+ * The voxels of a NRRD file: mapped where they lie in it as they are in memory, else read straight into the volume. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/mapping.h"
 #include "base/memory.h"
 #include "volume/gunzip.h"
 #include "volume/nrrd.h"
@@ -121,6 +122,36 @@ static mtm_status visit_parts(const nrrd_reader *reader, unsigned char *voxels, 
     return status;
 }
 
+/* False where the voxels must be read: compressed, in several files, in the other byte order or at an odd place, or
+ * the file cannot be mapped or opened again, of which reading then tells. */
+static bool map_voxels(const nrrd_reader *reader, mtm_mapping *mapping) {
+    const mtm_nrrd_header *header = &reader->header;
+    const size_t voxel_bytes = mtm_voxel_type_bytes(header->type);
+    const bool is_native = voxel_bytes == 1 || header->is_big_endian == mtm_is_big_endian();
+    if (header->is_gzip || reader->files.count > 1 || !is_native) return false;
+
+    data_part part;
+    bool is_mapped = false;
+    if (open_part(reader, 0, &part, NULL) == MTM_OK) {
+        const long long offset = ftello(part.stream);
+        is_mapped = offset >= 0 && (unsigned long long)offset % voxel_bytes == 0 &&
+                    mtm_mapping_open(part.stream, offset, reader->part_bytes, mapping);
+    }
+    close_part(&part);
+    return is_mapped;
+}
+
+static mtm_status read_into_memory(const nrrd_reader *reader, const mtm_grid *grid, mtm_volume **volume,
+                                   mtm_error *error) {
+    const mtm_nrrd_header *header = &reader->header;
+    mtm_status status = mtm_volume_allocate(grid, header->type, header->path, volume, error);
+    if (status == MTM_OK) status = visit_parts(reader, mtm_volume_storage(*volume), error);
+    if (status == MTM_OK && header->is_big_endian != mtm_is_big_endian())
+        mtm_voxels_swap_bytes_parallel(header->type, mtm_volume_storage(*volume),
+                                       mtm_volume_voxel_count(*volume));
+    return status;
+}
+
 /* Makes the volume only after all files were found long enough, so that a header cannot ask for memory that no
  * file will fill. */
 static mtm_status read_voxels(nrrd_reader *reader, const mtm_grid *grid, mtm_volume **volume,
@@ -131,14 +162,14 @@ static mtm_status read_voxels(nrrd_reader *reader, const mtm_grid *grid, mtm_vol
     if (status != MTM_OK) return status;
     reader->part_bytes = bytes / (size_t)reader->files.count;
     status = visit_parts(reader, NULL, error);
-    if (status == MTM_OK) status = mtm_volume_allocate(grid, header->type, header->path, volume, error);
-    if (status == MTM_OK) status = visit_parts(reader, mtm_volume_storage(*volume), error);
     if (status != MTM_OK) return status;
-    if (header->is_big_endian != mtm_is_big_endian())
-        mtm_voxels_swap_bytes_parallel(header->type, mtm_volume_storage(*volume),
-                                       mtm_volume_voxel_count(*volume));
-    mtm_volume_finish(*volume, 1.0, 0.0);
-    return MTM_OK;
+    mtm_mapping mapping;
+    if (map_voxels(reader, &mapping))
+        status = mtm_volume_adopt(grid, header->type, &mapping, header->path, volume, error);
+    else
+        status = read_into_memory(reader, grid, volume, error);
+    if (status == MTM_OK) mtm_volume_finish(*volume, 1.0, 0.0);
+    return status;
 }
 
 mtm_status mtm_nrrd_read(FILE *stream, const char *path, mtm_volume **volume, mtm_error *error) {

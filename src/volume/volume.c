@@ -25,7 +25,9 @@ static const size_t BYTES_LIMIT = (size_t)1 << 40;
 struct mtm_volume {
     mtm_grid grid;
     mtm_voxel_type type;
-    void *voxels;
+    const void *voxels; /* in `memory` or in `mapping`, whichever there is */
+    void *memory;
+    mtm_mapping mapping;
     size_t voxel_count;
     double slope, intercept;
     double smallest, largest;
@@ -44,8 +46,24 @@ mtm_status mtm_volume_bytes(const int size[3], mtm_voxel_type type, const char *
     return MTM_OK;
 }
 
-/* Not zeroed: the pages of a big volume are touched first by the data that fills them. The last cache line is
- * padding of zeros, so that a vector load may begin at the last voxel. */
+/* A volume that has no voxels yet. */
+static mtm_status create_empty(const mtm_grid *grid, mtm_voxel_type type, const char *what,
+                               mtm_volume **volume, mtm_error *error) {
+    const char *fault = mtm_grid_fault(grid);
+    if (fault != NULL) return mtm_fail(error, MTM_ARGUMENT, "%s: the grid %s", what, fault);
+    size_t bytes = 0;
+    const mtm_status status = mtm_volume_bytes(grid->size, type, what, &bytes, error);
+    if (status != MTM_OK) return status;
+    mtm_volume *result = mtm_allocate(1, sizeof *result);
+    if (result == NULL) return mtm_fail_memory(error, what, sizeof *result);
+    *result = (mtm_volume){.grid = *grid, .type = type, .slope = 1.0};
+    result->voxel_count = bytes / mtm_voxel_type_bytes(type);
+    *volume = result;
+    return MTM_OK;
+}
+
+/* Not zeroed: the pages of a big volume are touched first by the data that fills them. Only the rest, at least
+ * ALIGNMENT bytes, is: a vector load may begin at the last voxel. */
 static void *allocate_voxels(size_t bytes) {
     const size_t rounded = (bytes / ALIGNMENT + 2) * ALIGNMENT;
     unsigned char *voxels = aligned_alloc(ALIGNMENT, rounded);
@@ -55,18 +73,12 @@ static void *allocate_voxels(size_t bytes) {
 
 mtm_status mtm_volume_allocate(const mtm_grid *grid, mtm_voxel_type type, const char *what,
                                mtm_volume **volume, mtm_error *error) {
-    const char *fault = mtm_grid_fault(grid);
-    if (fault != NULL) return mtm_fail(error, MTM_ARGUMENT, "%s: the grid %s", what, fault);
-    size_t bytes = 0;
-    const mtm_status status = mtm_volume_bytes(grid->size, type, what, &bytes, error);
+    mtm_volume *result = NULL;
+    const mtm_status status = create_empty(grid, type, what, &result, error);
     if (status != MTM_OK) return status;
-
-    mtm_volume *result = mtm_allocate(1, sizeof *result);
-    if (result == NULL) return mtm_fail_memory(error, what, sizeof *result);
-    *result = (mtm_volume){.grid = *grid, .type = type, .slope = 1.0};
-    result->voxel_count = bytes / mtm_voxel_type_bytes(type);
-    result->voxels = allocate_voxels(bytes);
-    if (result->voxels == NULL) {
+    const size_t bytes = result->voxel_count * mtm_voxel_type_bytes(type);
+    result->voxels = result->memory = allocate_voxels(bytes);
+    if (result->memory == NULL) {
         free(result);
         return mtm_fail_memory(error, what, bytes);
     }
@@ -74,8 +86,26 @@ mtm_status mtm_volume_allocate(const mtm_grid *grid, mtm_voxel_type type, const 
     return MTM_OK;
 }
 
+mtm_status mtm_volume_adopt(const mtm_grid *grid, mtm_voxel_type type, mtm_mapping *mapping, const char *what,
+                            mtm_volume **volume, mtm_error *error) {
+    assert((uintptr_t)mapping->bytes % mtm_voxel_type_bytes(type) == 0);
+    const mtm_status status = create_empty(grid, type, what, volume, error);
+    if (status != MTM_OK) {
+        mtm_mapping_close(mapping);
+        return status;
+    }
+    (*volume)->mapping = *mapping;
+    (*volume)->voxels = mapping->bytes;
+    return MTM_OK;
+}
+
+bool mtm_volume_is_mapped(const mtm_volume *volume) {
+    return volume->mapping.bytes != NULL;
+}
+
 void *mtm_volume_storage(mtm_volume *volume) {
-    return volume->voxels;
+    assert(!mtm_volume_is_mapped(volume));
+    return volume->memory;
 }
 
 mtm_status mtm_volume_create(const mtm_grid *grid, mtm_voxel_type type, const void *voxels, double slope,
@@ -89,9 +119,9 @@ mtm_status mtm_volume_create(const mtm_grid *grid, mtm_voxel_type type, const vo
     if (status != MTM_OK) return status;
     const size_t bytes = result->voxel_count * mtm_voxel_type_bytes(type);
     if (voxels != NULL)
-        memcpy(result->voxels, voxels, bytes);
+        memcpy(result->memory, voxels, bytes);
     else
-        memset(result->voxels, 0, bytes);
+        memset(result->memory, 0, bytes);
     mtm_volume_finish(result, slope, intercept);
     *volume = result;
     return MTM_OK;
@@ -99,7 +129,8 @@ mtm_status mtm_volume_create(const mtm_grid *grid, mtm_voxel_type type, const vo
 
 void mtm_volume_destroy(mtm_volume *volume) {
     if (volume == NULL) return;
-    free(volume->voxels);
+    free(volume->memory);
+    mtm_mapping_close(&volume->mapping);
     free(volume);
 }
 
