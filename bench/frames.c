@@ -3,28 +3,11 @@
  * no volume). Prints medians; asserts nothing. Usage: frames [SCENE.json [RUNS]] */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "metamer/metamer.h"
+#include "timing.h"
 
 enum { RUNS_MAX = 1000 };
-
-static double now_ms(void) {
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
-
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(int count, double *values) {
-    qsort(values, (size_t)count, sizeof *values, compare_doubles);
-    return count % 2 == 1 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
-}
 
 /* One projection and one relighting; the two alternate, so that a busy machine slows both. */
 static mtm_status time_frame(const mtm_scene *scene, const mtm_volume *volume, double *project_ms,

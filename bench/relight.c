@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "metamer/metamer.h"
+#include "timing.h"
 
 enum { RUNS_MAX = 1000, THREADS_MAX = 2, ISA_MAX = 3, TRIAD_COUNT = 1 << 23 /* doubles: 64 MiB an array */ };
 
@@ -36,18 +36,6 @@ typedef struct bench_times {
     double relight_ms[ISA_MAX][2][THREADS_MAX][RUNS_MAX]; /* [isa][is_half][threads - 1] */
     double triad_ms[THREADS_MAX][RUNS_MAX];
 } bench_times;
-
-static double now_ms(void) {
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
-
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a;
-    const double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* The pixels that hold anything are a band of rows in the middle; sums are between 0 and 1. */
 static mtm_status make_data(const workload *work, bench_data *data, mtm_error *error) {
@@ -132,13 +120,12 @@ static void measure(const bench_data *data, int isa_count, const char *const *is
     }
 }
 
-/* Sorts; afterwards the first is the minimum and the middle one the median. */
+/* Sorts the times. */
 static void print_times(const char *label, int thread_count, double megabytes, int run_count,
                         double *times_ms) {
-    qsort(times_ms, (size_t)run_count, sizeof *times_ms, compare_doubles);
-    const double median = times_ms[run_count / 2];
+    const double middle = median(run_count, times_ms);
     (void)printf("  %-16s %d thread%s %9.3f %9.3f ms %7.1f GB/s\n", label, thread_count,
-                 thread_count == 1 ? " " : "s", times_ms[0], median, megabytes / times_ms[0]);
+                 thread_count == 1 ? " " : "s", times_ms[0], middle, megabytes / times_ms[0]);
 }
 
 static void print_workload(const workload *work, const bench_data *data, int isa_count,
