@@ -49,7 +49,6 @@ typedef struct split {
 
 static mtm_status measure_split(const model *made, const metamer_set *set, int pair, int light, split *found,
                                 mtm_error *error) {
-    const int d = made->dimension;
     const mtm_spectrum *emission = &set->lights.items[light].spectrum;
     const mtm_xyz white = mtm_xyz_of(emission, &set->observer);
     double matrix[3 * MTM_DIMENSION_MAX];
@@ -62,11 +61,9 @@ static mtm_status measure_split(const model *made, const metamer_set *set, int p
         double coefficients[MTM_DIMENSION_MAX];
         truth[side] = mtm_xyz_of(&stimulus, &set->observer);
         status = model_encode(made, reflectance, coefficients, error);
-        for (int i = 0; i < d && status == MTM_OK; i++) {
-            modeled[side].x += matrix[i] * coefficients[i];
-            modeled[side].y += matrix[d + i] * coefficients[i];
-            modeled[side].z += matrix[2 * d + i] * coefficients[i];
-        }
+        if (status != MTM_OK) break;
+        const mtm_rgb sums = mtm_basis_color(made->dimension, matrix, coefficients); /* matrix leads to XYZ */
+        modeled[side] = (mtm_xyz){sums.r, sums.g, sums.b};
     }
     if (status == MTM_OK)
         *found =

@@ -115,22 +115,15 @@ static mtm_status scale_light(viewing *v, mtm_error *error) {
 static mtm_status make_displays(viewing *v, mtm_error *error) {
     mtm_observer standard;
     mtm_spectrum shown;
-    double adaptation[3][3];
     mtm_status status = mtm_observer_get("cie1931", &standard, error);
     if (status == MTM_OK) status = mtm_light_normalize(&v->light, &standard, &shown, error);
     if (status != MTM_OK) return status;
+    const mtm_illumination adapted = mtm_illumination_of(&v->light, &v->observer, v->white.y);
     const mtm_illumination picture = mtm_illumination_of(&shown, &v->observer, 0);
     const double exposure = mtm_xyz_of(&shown, &v->observer).y;
-    mtm_bradford(v->white, mtm_white_d65(), adaptation);
-    for (int column = 0; column < 3; column++) {
-        const mtm_xyz adapted = {adaptation[0][column], adaptation[1][column], adaptation[2][column]};
-        const mtm_rgb rgb = mtm_rgb_from_xyz(adapted);
-        v->srgb_from_xyz[0][column] = rgb.r;
-        v->srgb_from_xyz[1][column] = rgb.g;
-        v->srgb_from_xyz[2][column] = rgb.b;
-        for (int row = 0; row < 3; row++)
-            v->picture_from_xyz[row][column] = exposure * picture.rgb_from_xyz[row][column];
-    }
+    memcpy(v->srgb_from_xyz, adapted.rgb_from_xyz, sizeof v->srgb_from_xyz);
+    for (int i = 0; i < 9; i++)
+        v->picture_from_xyz[i / 3][i % 3] = exposure * picture.rgb_from_xyz[i / 3][i % 3];
     return MTM_OK;
 }
 
@@ -189,13 +182,8 @@ static mtm_status look(const viewing *v, const mtm_spectrum *reflectance, mtm_xy
     mtm_status status = mtm_basis_encode(v->basis, reflectance, coefficients, error);
     if (status == MTM_OK) status = mtm_basis_multiply(v->basis, coefficients, v->filter, coefficients, error);
     if (status != MTM_OK) return status;
-    const int d = mtm_basis_dimension(v->basis);
-    *xyz = (mtm_xyz){0};
-    for (int i = 0; i < d; i++) {
-        xyz->x += v->matrix[i] * coefficients[i];
-        xyz->y += v->matrix[d + i] * coefficients[i];
-        xyz->z += v->matrix[2 * d + i] * coefficients[i];
-    }
+    const mtm_rgb color = mtm_basis_color(mtm_basis_dimension(v->basis), v->matrix, coefficients);
+    *xyz = (mtm_xyz){color.r, color.g, color.b}; /* the display is the identity */
     return MTM_OK;
 }
 

@@ -83,6 +83,9 @@ MTM_API MTM_CHECK mtm_status mtm_basis_multiply(const mtm_basis *basis, const do
 MTM_API MTM_CHECK mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illumination,
                                               double *matrix, mtm_error *error);
 
+/* The color of d coefficients: `matrix` (3 rows of d, from mtm_basis_matrix) times them. */
+MTM_API mtm_rgb mtm_basis_color(int dimension, const double *matrix, const double *coefficients);
+
 /* The spectrum of every coefficient: 81 rows (the grid) of d, so that rows · coefficients is the reflectance a pixel
  * stands for. MTM_ARGUMENT from "rgb", which holds no spectra. */
 MTM_API MTM_CHECK mtm_status mtm_basis_reconstruction(const mtm_basis *basis, float *rows, mtm_error *error);

@@ -180,6 +180,16 @@ mtm_status mtm_basis_matrix(const mtm_basis *basis, const mtm_illumination *illu
     return basis->kind->matrix(basis, illumination, matrix, error);
 }
 
+mtm_rgb mtm_basis_color(int dimension, const double *matrix, const double *coefficients) {
+    mtm_rgb color = {0, 0, 0};
+    for (int i = 0; i < dimension; i++) {
+        color.r += matrix[i] * coefficients[i];
+        color.g += matrix[dimension + i] * coefficients[i];
+        color.b += matrix[2 * dimension + i] * coefficients[i];
+    }
+    return color;
+}
+
 mtm_status mtm_basis_reconstruction(const mtm_basis *basis, float *rows, mtm_error *error) {
     if (!basis->kind->has_spectra)
         return mtm_fail(error, MTM_ARGUMENT, "basis \"%s\" holds no spectra to reconstruct", basis->name);
@@ -187,6 +197,13 @@ mtm_status mtm_basis_reconstruction(const mtm_basis *basis, float *rows, mtm_err
         for (int column = 0; column < basis->dimension; column++)
             rows[i * basis->dimension + column] = (float)basis->columns[column].value[i];
     return MTM_OK;
+}
+
+int mtm_basis_few_dimensions(int asked, int material_count) {
+    enum { MIN = 3, DEFAULT = 7, MAX = MTM_FEW_DIMENSIONS_MAX };
+    (void)material_count;
+    if (asked == 0) return DEFAULT;
+    return asked >= MIN && asked <= MAX ? asked : 0;
 }
 
 int mtm_lanes(int dimension) {

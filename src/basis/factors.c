@@ -9,14 +9,6 @@
 #include "basis/kind.h"
 #include "spectrum/embedded.h"
 
-enum { DIMENSION_MIN = 3, DIMENSION_DEFAULT = 7, DIMENSION_MAX = 9 };
-
-static int dimension(int asked, int material_count) {
-    (void)material_count;
-    if (asked == 0) return DIMENSION_DEFAULT;
-    return asked >= DIMENSION_MIN && asked <= DIMENSION_MAX ? asked : 0;
-}
-
 static mtm_status prepare(mtm_basis *basis, mtm_error *error) {
     char name[32];
     mtm_spectrum_table table;
@@ -39,7 +31,7 @@ static mtm_status prepare(mtm_basis *basis, mtm_error *error) {
 
 const mtm_basis_kind mtm_basis_factors = {.name = "factors",
                                           .dimensions = "3 … 9",
-                                          .dimension = dimension,
+                                          .dimension = mtm_basis_few_dimensions,
                                           .prepare = prepare,
                                           .matrix = mtm_basis_light_columns,
                                           .has_encoder = true,

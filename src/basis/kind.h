@@ -40,6 +40,10 @@ extern const mtm_basis_kind mtm_basis_sharpened;
 extern const mtm_basis_kind mtm_basis_wavelengths;
 extern const mtm_basis_kind mtm_basis_rgb;
 
+/* The dimensions of the kinds that approximate: 3 … 9, 7 where none is asked for. */
+enum { MTM_FEW_DIMENSIONS_MAX = 9 };
+int mtm_basis_few_dimensions(int asked, int material_count);
+
 /* M(E) = X · CMFᵀ · diag(E) · B, the matrix of every kind whose columns the light multiplies wavelength by wavelength. */
 mtm_status mtm_basis_light_columns(const mtm_basis *basis, const mtm_illumination *illumination,
                                    double *matrix, mtm_error *error);

@@ -15,9 +15,7 @@
 #include "spectrum/embedded.h"
 
 enum {
-    DIMENSION_MIN = 3,
-    DIMENSION_DEFAULT = 7,
-    DIMENSION_MAX = MTM_SHARPENED_MAX,
+    DIMENSION_MAX = MTM_FEW_DIMENSIONS_MAX,
     FIRST = 4,   /* 400 nm */
     SAMPLES = 61 /* to 700 nm */
 };
@@ -133,12 +131,6 @@ mtm_status mtm_basis_sharpen(mtm_basis *basis, const mtm_spectrum *components, m
     return MTM_OK;
 }
 
-static int dimension(int asked, int material_count) {
-    (void)material_count;
-    if (asked == 0) return DIMENSION_DEFAULT;
-    return asked >= DIMENSION_MIN && asked <= DIMENSION_MAX ? asked : 0;
-}
-
 static mtm_status prepare(mtm_basis *basis, mtm_error *error) {
     static const char table_name[] = "reflectance_pca";
     mtm_spectrum components[DIMENSION_MAX];
@@ -171,7 +163,7 @@ static mtm_status matrix(const mtm_basis *basis, const mtm_illumination *illumin
 
 const mtm_basis_kind mtm_basis_sharpened = {.name = "sharpened",
                                             .dimensions = "3 … 9",
-                                            .dimension = dimension,
+                                            .dimension = mtm_basis_few_dimensions,
                                             .prepare = prepare,
                                             .matrix = matrix,
                                             .has_encoder = true,

@@ -5,8 +5,6 @@
 
 #include "basis/kind.h"
 
-enum { MTM_SHARPENED_MAX = 9 /* dimensions */ };
-
 /* Fills columns and encoder of `basis` from as many orthonormal `components` on 400 … 700 nm, of which the first is the
  * flat spectrum. MTM_NUMERIC where the sharpened basis is ill-conditioned. */
 MTM_CHECK mtm_status mtm_basis_sharpen(mtm_basis *basis, const mtm_spectrum *components, mtm_error *error);

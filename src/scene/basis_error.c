@@ -16,16 +16,12 @@ static mtm_lab picture_lab(mtm_rgb color) {
 }
 
 static mtm_rgb color_of(const mtm_basis *basis, const double *matrix, int material) {
-    float coefficients[MTM_DIMENSION_MAX];
+    float in_lanes[MTM_DIMENSION_MAX];
+    double coefficients[MTM_DIMENSION_MAX];
     const int d = mtm_basis_dimension(basis);
-    mtm_rgb color = {0, 0, 0};
-    mtm_basis_encode_material(basis, material, coefficients);
-    for (int i = 0; i < d; i++) {
-        color.r += matrix[i] * coefficients[i];
-        color.g += matrix[d + i] * coefficients[i];
-        color.b += matrix[2 * d + i] * coefficients[i];
-    }
-    return color;
+    mtm_basis_encode_material(basis, material, in_lanes);
+    for (int i = 0; i < d; i++) coefficients[i] = in_lanes[i];
+    return mtm_basis_color(d, matrix, coefficients);
 }
 
 static mtm_status compare_light(const mtm_scene *scene, const mtm_basis *basis, int light,

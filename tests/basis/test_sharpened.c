@@ -11,7 +11,7 @@ enum { FIRST = 4, SAMPLES = 61 /* 400 … 700 nm */ };
 
 static void read_components(mtm_spectrum *components) {
     mtm_error error;
-    for (int i = 0; i < MTM_SHARPENED_MAX; i++) {
+    for (int i = 0; i < MTM_FEW_DIMENSIONS_MAX; i++) {
         char column[16];
         (void)snprintf(column, sizeof column, "u_%d", i + 1);
         assert_ok(
@@ -36,7 +36,7 @@ static mtm_basis *sharpened(int dimension) {
 static void a_basis_spans_the_subspace_of_its_components(void **state) {
     (void)state;
     mtm_error error;
-    mtm_spectrum components[MTM_SHARPENED_MAX];
+    mtm_spectrum components[MTM_FEW_DIMENSIONS_MAX];
     float rows[MTM_SPECTRUM_SAMPLES * MTM_DIMENSION_MAX];
     read_components(components);
     for (int d = 3; d <= 9; d++) {
@@ -59,7 +59,7 @@ static void a_basis_spans_the_subspace_of_its_components(void **state) {
 static void each_column_is_the_sharpest_of_its_interval(void **state) {
     (void)state;
     enum { D = 7 };
-    mtm_spectrum components[MTM_SHARPENED_MAX];
+    mtm_spectrum components[MTM_FEW_DIMENSIONS_MAX];
     uint32_t seed = 1;
     read_components(components);
     mtm_basis *basis = sharpened(D);
