@@ -60,6 +60,30 @@ MTM_API MTM_CHECK mtm_status mtm_render(const char *renderer, const mtm_volume *
                                         const mtm_render_options *options, const mtm_progress *progress,
                                         mtm_image *image, mtm_error *error);
 
+/* A renderer prepared for one volume. What a picture needs is made at three speeds: once per volume (blocks), once per
+ * transfer function (which blocks are visible), once per view; a projector keeps the first two for many views. */
+typedef struct mtm_projector mtm_projector;
+
+/* Prepares the renderer of that name for the volume, which must outlive the projector. Of the options only thread_count
+ * is read. MTM_ARGUMENT for an unknown renderer, MTM_MEMORY, MTM_CANCELLED. Release with mtm_projector_destroy (NULL
+ * allowed). */
+MTM_API MTM_CHECK mtm_status mtm_projector_create(const char *renderer, const mtm_volume *volume,
+                                                  const mtm_render_options *options,
+                                                  const mtm_progress *progress, mtm_projector **projector,
+                                                  mtm_error *error);
+MTM_API void mtm_projector_destroy(mtm_projector *projector);
+
+/* Takes another transfer function, which must outlive its use here. After MTM_MEMORY the projector has none. */
+MTM_API MTM_CHECK mtm_status mtm_projector_set_transfer(mtm_projector *projector,
+                                                        const mtm_transfer *transfer, mtm_error *error);
+
+/* mtm_render without the preparations; the projector has a transfer function (precondition). Calls may run at the same
+ * time for different images. */
+MTM_API MTM_CHECK mtm_status mtm_projector_render(const mtm_projector *projector, const mtm_camera *camera,
+                                                  const mtm_render_options *options,
+                                                  const mtm_progress *progress, mtm_image *image,
+                                                  mtm_error *error);
+
 /* Adds a reflecting background behind everything: c += (1 - A) · coefficients, A = 1 (paper eq. 5, first term). */
 MTM_API void mtm_image_put_background(mtm_image *image, const float *coefficients);
 

@@ -48,32 +48,61 @@ static void set_shading(mtm_raycast *raycast, const mtm_volume *volume) {
     for (int i = 0; i < 3; i++) raycast->light[i] = length > 0 ? d[i] / length : 0;
 }
 
-/* Block tables for empty-space skipping, freed by free_blocks. */
-static mtm_status set_blocks(mtm_raycast *raycast, const mtm_volume *volume, mtm_error *error) {
+/* What a volume and a transfer function are brought to before any view. */
+typedef struct raycast_prepared {
+    const mtm_volume *volume;
     mtm_blocks blocks;
-    mtm_status status = mtm_blocks_create(volume, raycast->options.thread_count, &blocks, error);
-    if (status != MTM_OK) return status;
-    memcpy(raycast->block_size, blocks.size, sizeof raycast->block_size);
-    const size_t count = (size_t)blocks.size[0] * (size_t)blocks.size[1] * (size_t)blocks.size[2];
-    unsigned char *is_visible = mtm_allocate(count, sizeof *is_visible);
-    float *highest = mtm_allocate(count, sizeof *highest);
-    raycast->is_block_visible = is_visible;
-    raycast->block_highest = highest;
-    if (is_visible == NULL || highest == NULL) {
-        status = mtm_fail_memory(error, "empty-space skipping", count * sizeof *highest);
-    } else {
-        for (size_t i = 0; i < count; i++) {
-            is_visible[i] = mtm_transfer_is_visible(raycast->transfer, blocks.lowest[i], blocks.highest[i]);
-            highest[i] = mtm_transfer_position(raycast->transfer, blocks.highest[i]);
-        }
+    const mtm_transfer *transfer;
+    unsigned char *is_block_visible;
+    float *block_highest;
+} raycast_prepared;
+
+static void release(void *prepared) {
+    raycast_prepared *raycast = prepared;
+    if (raycast == NULL) return;
+    mtm_blocks_free(&raycast->blocks);
+    free(raycast->is_block_visible);
+    free(raycast->block_highest);
+    free(raycast);
+}
+
+static size_t block_count(const mtm_blocks *blocks) {
+    return (size_t)blocks->size[0] * (size_t)blocks->size[1] * (size_t)blocks->size[2];
+}
+
+static mtm_status prepare(const mtm_volume *volume, const mtm_render_options *options,
+                          const mtm_progress *progress, void **prepared, mtm_error *error) {
+    (void)progress;
+    raycast_prepared *made = mtm_allocate(1, sizeof *made);
+    if (made == NULL) return mtm_fail_memory(error, "the raycaster", sizeof *made);
+    made->volume = volume;
+    mtm_status status = mtm_blocks_create(volume, options->thread_count, &made->blocks, error);
+    if (status == MTM_OK) {
+        const size_t count = block_count(&made->blocks);
+        made->is_block_visible = mtm_allocate(count, sizeof *made->is_block_visible);
+        made->block_highest = mtm_allocate(count, sizeof *made->block_highest);
+        if (made->is_block_visible == NULL || made->block_highest == NULL)
+            status = mtm_fail_memory(error, "empty-space skipping", count * sizeof *made->block_highest);
     }
-    mtm_blocks_free(&blocks);
+    if (status == MTM_OK)
+        *prepared = made;
+    else
+        release(made);
     return status;
 }
 
-static void free_blocks(mtm_raycast *raycast) {
-    free((void *)raycast->is_block_visible);
-    free((void *)raycast->block_highest);
+static mtm_status classify(void *prepared, const mtm_transfer *transfer, mtm_error *error) {
+    (void)error;
+    raycast_prepared *raycast = prepared;
+    const mtm_blocks *blocks = &raycast->blocks;
+    const size_t count = block_count(blocks);
+    for (size_t i = 0; i < count; i++) {
+        raycast->is_block_visible[i] =
+            mtm_transfer_is_visible(transfer, blocks->lowest[i], blocks->highest[i]);
+        raycast->block_highest[i] = mtm_transfer_position(transfer, blocks->highest[i]);
+    }
+    raycast->transfer = transfer;
+    return MTM_OK;
 }
 
 static mtm_status check_step(const mtm_raycast *raycast, const mtm_grid *grid, mtm_error *error) {
@@ -98,28 +127,28 @@ static void render_one_tile(void *context, int task) {
     mtm_raycast_tile(job->raycast, x, y, job->image);
 }
 
-static mtm_status render(const mtm_volume *volume, const mtm_transfer *transfer, const mtm_camera *camera,
-                         const mtm_render_options *options, const mtm_progress *progress, mtm_image *image,
-                         mtm_error *error) {
-    const mtm_grid *grid = mtm_volume_grid(volume);
-    mtm_raycast raycast = {.transfer = transfer,
+static mtm_status project(const void *prepared, const mtm_camera *camera, const mtm_render_options *options,
+                          const mtm_progress *progress, mtm_image *image, mtm_error *error) {
+    const raycast_prepared *from = prepared;
+    const mtm_grid *grid = mtm_volume_grid(from->volume);
+    mtm_raycast raycast = {.transfer = from->transfer,
                            .options = *options,
+                           .is_block_visible = from->is_block_visible,
+                           .block_highest = from->block_highest,
                            .view = mtm_camera_view(camera, grid),
                            .step = options->step * mtm_grid_smallest_spacing(grid)};
-    set_volume(&raycast, volume);
-    set_shading(&raycast, volume);
+    memcpy(raycast.block_size, from->blocks.size, sizeof raycast.block_size);
+    set_volume(&raycast, from->volume);
+    set_shading(&raycast, from->volume);
     mtm_status status = check_step(&raycast, grid, error);
-    if (status == MTM_OK) status = set_blocks(&raycast, volume, error);
-    if (status == MTM_OK) {
-        const int tiles_across = (image->width + MTM_TILE_PIXELS - 1) / MTM_TILE_PIXELS;
-        const int tiles_down = (image->height + MTM_TILE_PIXELS - 1) / MTM_TILE_PIXELS;
-        tile_job job = {&raycast, image, tiles_across};
-        status = mtm_parallel_for(options->thread_count, tiles_across * tiles_down, render_one_tile, &job,
-                                  progress);
-        if (status == MTM_CANCELLED) (void)mtm_fail(error, status, "rendering was cancelled");
-    }
-    free_blocks(&raycast);
+    if (status != MTM_OK) return status;
+    const int tiles_across = (image->width + MTM_TILE_PIXELS - 1) / MTM_TILE_PIXELS;
+    const int tiles_down = (image->height + MTM_TILE_PIXELS - 1) / MTM_TILE_PIXELS;
+    tile_job job = {&raycast, image, tiles_across};
+    status =
+        mtm_parallel_for(options->thread_count, tiles_across * tiles_down, render_one_tile, &job, progress);
+    if (status == MTM_CANCELLED) (void)mtm_fail(error, status, "rendering was cancelled");
     return status;
 }
 
-const mtm_renderer mtm_renderer_raycast = {.name = "raycast", .render = render};
+const mtm_renderer mtm_renderer_raycast = {"raycast", prepare, classify, project, release};

@@ -2,9 +2,11 @@
  * The table of renderers and what they share. */
 #include <assert.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "render/renderer.h"
 #include "transfer/table.h"
 
@@ -42,15 +44,66 @@ static mtm_status fail_unknown(const char *name, mtm_error *error) {
     return mtm_fail(error, MTM_ARGUMENT, "renderer \"%s\" is not known; known are %s", name, known);
 }
 
+struct mtm_projector {
+    const mtm_renderer *renderer;
+    const mtm_transfer *transfer; /* NULL: none yet */
+    void *prepared;
+};
+
+static const mtm_renderer *find_renderer(const char *name) {
+    for (size_t i = 0; i < RENDERER_COUNT; i++)
+        if (strcmp(name, renderers[i]->name) == 0) return renderers[i];
+    return NULL;
+}
+
+mtm_status mtm_projector_create(const char *renderer, const mtm_volume *volume,
+                                const mtm_render_options *options, const mtm_progress *progress,
+                                mtm_projector **projector, mtm_error *error) {
+    const mtm_renderer *found = find_renderer(renderer);
+    if (found == NULL) return fail_unknown(renderer, error);
+    mtm_projector *made = mtm_allocate(1, sizeof *made);
+    if (made == NULL) return mtm_fail_memory(error, "the projector", sizeof *made);
+    made->renderer = found;
+    const mtm_status status = found->prepare(volume, options, progress, &made->prepared, error);
+    if (status != MTM_OK) {
+        mtm_projector_destroy(made);
+        return status;
+    }
+    *projector = made;
+    return MTM_OK;
+}
+
+void mtm_projector_destroy(mtm_projector *projector) {
+    if (projector == NULL) return;
+    projector->renderer->release(projector->prepared);
+    free(projector);
+}
+
+mtm_status mtm_projector_set_transfer(mtm_projector *projector, const mtm_transfer *transfer,
+                                      mtm_error *error) {
+    const mtm_status status = projector->renderer->classify(projector->prepared, transfer, error);
+    projector->transfer = status == MTM_OK ? transfer : NULL;
+    return status;
+}
+
+mtm_status mtm_projector_render(const mtm_projector *projector, const mtm_camera *camera,
+                                const mtm_render_options *options, const mtm_progress *progress,
+                                mtm_image *image, mtm_error *error) {
+    assert(projector->transfer != NULL);
+    assert(image->width == options->width && image->height == options->height);
+    assert(image->dimension == projector->transfer->dimension && image->lanes == projector->transfer->lanes);
+    return projector->renderer->project(projector->prepared, camera, options, progress, image, error);
+}
+
 mtm_status mtm_render(const char *renderer, const mtm_volume *volume, const mtm_transfer *transfer,
                       const mtm_camera *camera, const mtm_render_options *options,
                       const mtm_progress *progress, mtm_image *image, mtm_error *error) {
-    assert(image->width == options->width && image->height == options->height);
-    assert(image->dimension == transfer->dimension && image->lanes == transfer->lanes);
-    for (size_t i = 0; i < RENDERER_COUNT; i++)
-        if (strcmp(renderer, renderers[i]->name) == 0)
-            return renderers[i]->render(volume, transfer, camera, options, progress, image, error);
-    return fail_unknown(renderer, error);
+    mtm_projector *projector = NULL;
+    mtm_status status = mtm_projector_create(renderer, volume, options, NULL, &projector, error);
+    if (status == MTM_OK) status = mtm_projector_set_transfer(projector, transfer, error);
+    if (status == MTM_OK) status = mtm_projector_render(projector, camera, options, progress, image, error);
+    mtm_projector_destroy(projector);
+    return status;
 }
 
 void mtm_image_put_background(mtm_image *image, const float *coefficients) {

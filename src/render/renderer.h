@@ -5,11 +5,15 @@
 
 #include "metamer/render.h"
 
+/* `prepared` is the renderer's own and belongs to one volume; `release` takes NULL. */
 typedef struct mtm_renderer {
     const char *name;
-    mtm_status (*render)(const mtm_volume *volume, const mtm_transfer *transfer, const mtm_camera *camera,
-                         const mtm_render_options *options, const mtm_progress *progress, mtm_image *image,
-                         mtm_error *error);
+    mtm_status (*prepare)(const mtm_volume *volume, const mtm_render_options *options,
+                          const mtm_progress *progress, void **prepared, mtm_error *error);
+    mtm_status (*classify)(void *prepared, const mtm_transfer *transfer, mtm_error *error);
+    mtm_status (*project)(const void *prepared, const mtm_camera *camera, const mtm_render_options *options,
+                          const mtm_progress *progress, mtm_image *image, mtm_error *error);
+    void (*release)(void *prepared);
 } mtm_renderer;
 
 extern const mtm_renderer mtm_renderer_raycast;
