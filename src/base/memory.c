@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "metamer/base.h"
 
@@ -16,14 +17,33 @@ bool mtm_size_multiply(size_t a, size_t b, size_t *product) {
     return true;
 }
 
+/* Rounded up to at least one cache line, also for zero bytes. */
+static void *allocate(size_t count, size_t size, size_t *bytes) {
+    void *memory = NULL;
+    if (!mtm_size_multiply(count, size, bytes) || *bytes > SIZE_MAX - ALIGNMENT) return NULL;
+    *bytes = (*bytes + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
+    return posix_memalign(&memory, ALIGNMENT, *bytes) == 0 ? memory : NULL;
+}
+
 void *mtm_allocate(size_t count, size_t size) {
     size_t bytes = 0;
-    if (!mtm_size_multiply(count, size, &bytes) || bytes > SIZE_MAX - ALIGNMENT) return NULL;
-    bytes = (bytes + ALIGNMENT) / ALIGNMENT * ALIGNMENT; /* at least one cache line, also for zero bytes */
-    void *memory = NULL;
-    if (posix_memalign(&memory, ALIGNMENT, bytes) != 0) return NULL;
-    memset(memory, 0, bytes);
+    void *memory = allocate(count, size, &bytes);
+    if (memory != NULL) memset(memory, 0, bytes);
     return memory;
+}
+
+void *mtm_allocate_unset(size_t count, size_t size) {
+    size_t bytes = 0;
+    return allocate(count, size, &bytes);
+}
+
+size_t mtm_machine_memory(void) {
+#if defined(_SC_PHYS_PAGES) && defined(_SC_PAGESIZE)
+    const long pages = sysconf(_SC_PHYS_PAGES);
+    const long page_bytes = sysconf(_SC_PAGESIZE);
+    if (pages > 0 && page_bytes > 0) return (size_t)pages * (size_t)page_bytes;
+#endif
+    return (size_t)1 << 32;
 }
 
 char *mtm_text_copy(const char *text) {

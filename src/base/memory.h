@@ -13,6 +13,12 @@ bool mtm_size_multiply(size_t a, size_t b, size_t *product);
  * Zero bytes give a valid pointer. Release with free(). */
 void *mtm_allocate(size_t count, size_t size);
 
+/* The same but holding anything: for what is large and written at once. */
+void *mtm_allocate_unset(size_t count, size_t size);
+
+/* Bytes of memory that this machine has; a guess of 4 GiB where it does not tell. */
+size_t mtm_machine_memory(void);
+
 /* A copy of the text for free(); NULL when out of memory. */
 char *mtm_text_copy(const char *text);
 
