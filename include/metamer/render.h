@@ -32,15 +32,28 @@ typedef struct mtm_shading {
                                   range per smallest spacing */
 } mtm_shading;
 
+/* What makes rendering fast, to be left out one by one where that is measured. Pictures stay the same, to rounding. */
+enum {
+    MTM_WITHOUT_PACKETS = 1,  /* one ray at a time in double precision: the plain reference */
+    MTM_WITHOUT_SKIPPING = 2, /* every sample is read, also in empty space */
+    MTM_WITHOUT_PREFETCH = 4, /* voxels are not asked for ahead */
+};
+
 typedef struct mtm_render_options {
     int width, height; /* pixels */
     double step;       /* sample distance, in smallest spacings, > 0 */
+    bool
+        is_preintegrated; /* a step is the mean of the transfer function over the values along it; false: its middle */
     mtm_blend blend;
     bool jitter; /* each ray's samples shifted by a fixed random part of a step: noise instead of rings */
     double termination; /* a ray ends where its transmittance falls below this; 0: never */
     mtm_shading shading;
     double clip_low[3], clip_high[3]; /* fractions of the volume's box */
     int thread_count;                 /* 0: all processors; the picture is the same bits for any */
+    size_t
+        memory_bytes; /* for layouts derived from the volume; 0: half of the machine's memory. Where they do not fit,
+                            the volume's own voxels are read: slower, the same picture to 8 bits */
+    int without; /* of MTM_WITHOUT_…; 0: nothing is left out */
 } mtm_render_options;
 
 /* All defaults, with their reasons. */
@@ -64,8 +77,8 @@ MTM_API MTM_CHECK mtm_status mtm_render(const char *renderer, const mtm_volume *
  * transfer function (which blocks are visible), once per view; a projector keeps the first two for many views. */
 typedef struct mtm_projector mtm_projector;
 
-/* Prepares the renderer of that name for the volume, which must outlive the projector. Of the options only thread_count
- * is read. MTM_ARGUMENT for an unknown renderer, MTM_MEMORY, MTM_CANCELLED. Release with mtm_projector_destroy (NULL
+/* Prepares the renderer of that name for the volume, which must outlive the projector. Of the options only
+ * thread_count and memory_bytes are read. MTM_ARGUMENT for an unknown renderer, MTM_MEMORY, MTM_CANCELLED. Release with mtm_projector_destroy (NULL
  * allowed). */
 MTM_API MTM_CHECK mtm_status mtm_projector_create(const char *renderer, const mtm_volume *volume,
                                                   const mtm_render_options *options,

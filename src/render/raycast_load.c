@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * Reading the voxels round a sample, in the volume's own type, as positions in the transfer function. One pair of
- * functions per type, so that the type is decided once per picture and not once per voxel. */
+ * Reading the voxels round a sample, in the volume's own type, as positions in the transfer function. */
 #include <math.h>
 
-#include "render/raycast_kernel.h"
+#include "render/raycast_plain.h"
 
-#define ALWAYS_INLINE static inline __attribute__((always_inline))
-
-ALWAYS_INLINE double stored_value(const mtm_raycast *raycast, mtm_voxel_type type, size_t offset) {
-    switch (type) {
+static double stored_value(const mtm_raycast *raycast, size_t offset) {
+    switch (raycast->type) {
     case MTM_VOXEL_INT8: return ((const int8_t *)raycast->voxels)[offset];
     case MTM_VOXEL_UINT8: return ((const uint8_t *)raycast->voxels)[offset];
     case MTM_VOXEL_INT16: return ((const int16_t *)raycast->voxels)[offset];
@@ -23,32 +20,30 @@ ALWAYS_INLINE double stored_value(const mtm_raycast *raycast, mtm_voxel_type typ
 }
 
 /* Positions stay in a range that interpolation cannot overflow; what is no number is the smallest value. */
-ALWAYS_INLINE float voxel_position(const mtm_raycast *raycast, mtm_voxel_type type, size_t offset) {
-    const double value = raycast->slope * stored_value(raycast, type, offset) + raycast->intercept;
+static float voxel_position(const mtm_raycast *raycast, size_t offset) {
+    const double value = raycast->slope * stored_value(raycast, offset) + raycast->intercept;
     const float position = mtm_transfer_position(raycast->transfer, value);
     const float usable = fminf(fmaxf(position, -1e30f), 1e30f);
-    return type < MTM_VOXEL_FLOAT32 || isfinite(value) ? usable : raycast->lowest_position;
+    return raycast->type < MTM_VOXEL_FLOAT32 || isfinite(value) ? usable : raycast->lowest_position;
 }
 
-ALWAYS_INLINE size_t cell_offset(const mtm_raycast *raycast, const int cell[3]) {
+static size_t cell_offset(const mtm_raycast *raycast, const int cell[3]) {
     const size_t row = (size_t)cell[2] * (size_t)raycast->size[1] + (size_t)cell[1];
     return row * (size_t)raycast->size[0] + (size_t)cell[0];
 }
 
-ALWAYS_INLINE void load_corners(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded,
-                                mtm_voxel_type type) {
+void mtm_raycast_load_corners(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
     const size_t first = cell_offset(raycast, cell);
     for (int corner = 0; corner < 8; corner++) {
         const size_t x = corner & 1 ? raycast->stride[0] : 0;
         const size_t y = corner & 2 ? raycast->stride[1] : 0;
         const size_t z = corner & 4 ? raycast->stride[2] : 0;
-        loaded->corner[corner] = voxel_position(raycast, type, first + x + y + z);
+        loaded->corner[corner] = voxel_position(raycast, first + x + y + z);
     }
 }
 
 /* Where a cell is at the volume's face, the voxel beyond is taken from the face itself. */
-ALWAYS_INLINE void load_neighbors(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded,
-                                  mtm_voxel_type type) {
+void mtm_raycast_load_neighbors(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
     static const int across[3][2] = {{1, 2}, {0, 2}, {0, 1}};
     const size_t first = cell_offset(raycast, cell);
     for (int axis = 0; axis < 3; axis++) {
@@ -58,98 +53,8 @@ ALWAYS_INLINE void load_neighbors(const mtm_raycast *raycast, const int cell[3],
         for (int edge = 0; edge < 4; edge++) {
             const size_t u = edge & 1 ? raycast->stride[across[axis][0]] : 0;
             const size_t v = edge & 2 ? raycast->stride[across[axis][1]] : 0;
-            loaded->before[axis][edge] = voxel_position(raycast, type, before + u + v);
-            loaded->after[axis][edge] = voxel_position(raycast, type, after + u + v);
+            loaded->before[axis][edge] = voxel_position(raycast, before + u + v);
+            loaded->after[axis][edge] = voxel_position(raycast, after + u + v);
         }
     }
-}
-
-static void load_corners_int8(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_INT8);
-}
-static void load_neighbors_int8(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_INT8);
-}
-
-static void load_corners_uint8(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_UINT8);
-}
-static void load_neighbors_uint8(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_UINT8);
-}
-
-static void load_corners_int16(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_INT16);
-}
-static void load_neighbors_int16(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_INT16);
-}
-
-static void load_corners_uint16(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_UINT16);
-}
-static void load_neighbors_uint16(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_UINT16);
-}
-
-static void load_corners_int32(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_INT32);
-}
-static void load_neighbors_int32(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_INT32);
-}
-
-static void load_corners_uint32(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_UINT32);
-}
-static void load_neighbors_uint32(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_UINT32);
-}
-
-static void load_corners_int64(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_INT64);
-}
-static void load_neighbors_int64(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_INT64);
-}
-
-static void load_corners_uint64(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_UINT64);
-}
-static void load_neighbors_uint64(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_UINT64);
-}
-
-static void load_corners_float32(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_FLOAT32);
-}
-static void load_neighbors_float32(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_FLOAT32);
-}
-
-static void load_corners_float64(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_corners(raycast, cell, loaded, MTM_VOXEL_FLOAT64);
-}
-static void load_neighbors_float64(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded) {
-    load_neighbors(raycast, cell, loaded, MTM_VOXEL_FLOAT64);
-}
-
-void mtm_raycast_choose_loaders(mtm_raycast *raycast) {
-    static const struct {
-        void (*corners)(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded);
-        void (*neighbors)(const mtm_raycast *raycast, const int cell[3], mtm_cell *loaded);
-    } loaders[MTM_VOXEL_TYPE_COUNT] = {
-        [MTM_VOXEL_INT8] = {load_corners_int8, load_neighbors_int8},
-        [MTM_VOXEL_UINT8] = {load_corners_uint8, load_neighbors_uint8},
-        [MTM_VOXEL_INT16] = {load_corners_int16, load_neighbors_int16},
-        [MTM_VOXEL_UINT16] = {load_corners_uint16, load_neighbors_uint16},
-        [MTM_VOXEL_INT32] = {load_corners_int32, load_neighbors_int32},
-        [MTM_VOXEL_UINT32] = {load_corners_uint32, load_neighbors_uint32},
-        [MTM_VOXEL_INT64] = {load_corners_int64, load_neighbors_int64},
-        [MTM_VOXEL_UINT64] = {load_corners_uint64, load_neighbors_uint64},
-        [MTM_VOXEL_FLOAT32] = {load_corners_float32, load_neighbors_float32},
-        [MTM_VOXEL_FLOAT64] = {load_corners_float64, load_neighbors_float64},
-    };
-    raycast->load_corners = loaders[raycast->type].corners;
-    raycast->load_neighbors = loaders[raycast->type].neighbors;
 }

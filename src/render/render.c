@@ -18,6 +18,7 @@ mtm_render_options mtm_render_defaults(void) {
         .width = 512, /* the paper's picture size */
         .height = 512,
         .step = 0.5, /* half a voxel: the sampling rate that a linear transfer function needs (Nyquist) */
+        .is_preintegrated = true, /* without it, thin peaks of the transfer function show as rings */
         .blend = MTM_BLEND_COMPOSITE,
         .termination = 1.0 / 1024, /* invisible even where a light is raised a few times afterwards */
         .shading = {.ambient = 0.3,
