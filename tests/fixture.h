@@ -63,6 +63,70 @@ static inline mtm_volume *fixture_volume(const mtm_grid *grid, double (*value)(c
     return volume;
 }
 
+/* The ways to render a volume: ray by ray in double precision, which is exact; in packets from voxels of 32 bits as they
+ * are; and in packets from voxels of 16 bits packed with their gradients. Each once with a step's middle and once with
+ * the mean of the transfer function over its values. */
+typedef enum fixture_way {
+    PLAIN,
+    PLAIN_MEANS,
+    NATIVE,
+    NATIVE_MEANS,
+    PACKED,
+    PACKED_MEANS,
+} fixture_way;
+
+/* A test of a way, which is its state; and of all of them. */
+#define FIXTURE_WAY(test, way)                                                                               \
+    {                                                                                                        \
+#test " " #way, test, NULL, NULL, (void *)&(fixture_way) {                                           \
+            way                                                                                              \
+        }                                                                                                    \
+    }
+#define FIXTURE_PACKETS(test)                                                                                \
+    FIXTURE_WAY(test, NATIVE), FIXTURE_WAY(test, NATIVE_MEANS), FIXTURE_WAY(test, PACKED),                   \
+        FIXTURE_WAY(test, PACKED_MEANS)
+#define FIXTURE_WAYS(test) FIXTURE_WAY(test, PLAIN), FIXTURE_WAY(test, PLAIN_MEANS), FIXTURE_PACKETS(test)
+
+static inline fixture_way fixture_way_of(void **state) {
+    return *(const fixture_way *)*state;
+}
+
+static inline bool fixture_is_plain(fixture_way way) {
+    return way <= PLAIN_MEANS;
+}
+
+static inline bool fixture_has_means(fixture_way way) {
+    return way % 2 == 1;
+}
+
+static inline void fixture_set_way(fixture_way way, mtm_render_options *options) {
+    options->without = fixture_is_plain(way) ? MTM_WITHOUT_PACKETS : 0;
+    options->is_preintegrated = fixture_has_means(way);
+}
+
+/* Levels of 16 bits to the value 1: halves, 20ths and 40ths are whole levels. */
+enum { FIXTURE_LEVELS = 64000 };
+
+/* fixture_volume for a way: floats, or, to be packed, 16 bits for values 0 … 1. */
+static inline mtm_volume *fixture_volume_for(fixture_way way, const mtm_grid *grid,
+                                             double (*value)(const double world[3])) {
+    mtm_error error;
+    mtm_volume *packed = NULL;
+    mtm_volume *volume = fixture_volume(grid, value);
+    if (way < PACKED) return volume;
+    const float *from = mtm_volume_voxels(volume);
+    const size_t count = mtm_volume_voxel_count(volume);
+    uint16_t *voxels = malloc(count * sizeof *voxels);
+    assert_non_null(voxels);
+    for (size_t n = 0; n < count; n++)
+        voxels[n] = (uint16_t)lrint(fmin(fmax((double)from[n], 0), 1) * FIXTURE_LEVELS);
+    assert_ok(mtm_volume_create(grid, MTM_VOXEL_UINT16, voxels, 1.0 / FIXTURE_LEVELS, 0, &packed, &error),
+              error);
+    free(voxels);
+    mtm_volume_destroy(volume);
+    return packed;
+}
+
 /* Unshaded, orthographic along z, no early termination, small. */
 static inline mtm_render_options fixture_plain_options(void) {
     mtm_render_options options = mtm_render_defaults();
