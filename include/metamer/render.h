@@ -97,6 +97,25 @@ MTM_API MTM_CHECK mtm_status mtm_projector_render(const mtm_projector *projector
                                                   const mtm_progress *progress, mtm_image *image,
                                                   mtm_error *error);
 
+/* A picture that comes coarse first and then finer. */
+typedef struct mtm_refinement {
+    int coarsest; /* 1, 2, 4, 8 or 16: the stride of the first stage */
+    /* A stage is complete: every stride-th pixel across and down is computed. Called from the thread that started the
+     * work with the coarsest stride, half of it, … 1. Returning false ends the work there with MTM_CANCELLED. */
+    bool (*refined)(void *user, int stride); /* NULL: nobody listens */
+    void *user;
+} mtm_refinement;
+
+/* mtm_projector_render in stages, each with twice the pixels across and down. No pixel is computed twice, and the last
+ * stage leaves the same bits. After the stage of a stride, pixel (x, y) holds what belongs to
+ * (x - x mod stride, y - y mod stride); within the next stage, to that or to its pixel of half the stride, so that
+ * the picture stays complete when it is cancelled there. Progress rises over all stages. */
+MTM_API MTM_CHECK mtm_status mtm_projector_refine(const mtm_projector *projector, const mtm_camera *camera,
+                                                  const mtm_render_options *options,
+                                                  const mtm_refinement *refinement,
+                                                  const mtm_progress *progress, mtm_image *image,
+                                                  mtm_error *error);
+
 /* Adds a reflecting background behind everything: c += (1 - A) · coefficients, A = 1 (paper eq. 5, first term). */
 MTM_API void mtm_image_put_background(mtm_image *image, const float *coefficients);
 

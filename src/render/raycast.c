@@ -191,13 +191,15 @@ typedef struct tile_job {
 
 static void render_one_tile(void *context, int task) {
     const tile_job *job = context;
-    job->render_tile(job->raycast, &job->lattice, task % job->tiles_across, task / job->tiles_across,
-                     job->image);
+    const int across = task % job->tiles_across;
+    const int down = task / job->tiles_across;
+    job->render_tile(job->raycast, &job->lattice, across, down, job->image);
+    mtm_lattice_spread(&job->lattice, across * MTM_TILE_PIXELS, down * MTM_TILE_PIXELS, MTM_TILE_PIXELS,
+                       job->image);
 }
 
-static int tiles_along(int pixels, int first, int stride) {
-    const int count = pixels > first ? (pixels - first + stride - 1) / stride : 0;
-    return (count + MTM_TILE_PIXELS - 1) / MTM_TILE_PIXELS;
+static int tiles_along(const mtm_lattice *lattice, int first, int size) {
+    return (mtm_lattice_count(lattice, first, size) + MTM_TILE_PIXELS - 1) / MTM_TILE_PIXELS;
 }
 
 static mtm_status render_lattice(const mtm_raycast *raycast, const mtm_lattice *lattice,
@@ -206,15 +208,16 @@ static mtm_status render_lattice(const mtm_raycast *raycast, const mtm_lattice *
     const bool is_plain =
         options->blend == MTM_BLEND_MAXIMUM || (options->without & MTM_WITHOUT_PACKETS) != 0;
     tile_job job = {raycast, is_plain ? mtm_raycast_plain_tile : kernels[mtm_isa_chosen()]->render_tile,
-                    *lattice, image, tiles_along(image->width, lattice->x, lattice->stride)};
-    const int tile_count = job.tiles_across * tiles_along(image->height, lattice->y, lattice->stride);
+                    *lattice, image, tiles_along(lattice, lattice->x, image->width)};
+    const int tile_count = job.tiles_across * tiles_along(lattice, lattice->y, image->height);
     const mtm_status status =
         mtm_parallel_for(options->thread_count, tile_count, render_one_tile, &job, progress);
     return status == MTM_CANCELLED ? mtm_fail(error, status, "rendering was cancelled") : status;
 }
 
 static mtm_status project(const void *prepared, const mtm_camera *camera, const mtm_render_options *options,
-                          const mtm_progress *progress, mtm_image *image, mtm_error *error) {
+                          const mtm_lattice *lattice, const mtm_progress *progress, mtm_image *image,
+                          mtm_error *error) {
     const raycast_prepared *from = prepared;
     const mtm_grid *grid = mtm_volume_grid(from->volume);
     mtm_raycast raycast = {.transfer = from->transfer,
@@ -231,7 +234,7 @@ static mtm_status project(const void *prepared, const mtm_camera *camera, const 
     set_rows(&raycast, from->volume);
     const mtm_status status = check_step(&raycast, grid, error);
     if (status != MTM_OK) return status;
-    return render_lattice(&raycast, &(mtm_lattice){0, 0, 1}, progress, image, error);
+    return render_lattice(&raycast, lattice, progress, image, error);
 }
 
 const mtm_renderer mtm_renderer_raycast = {"raycast", prepare, classify, project, release};

@@ -5,6 +5,7 @@
 #define METAMER_RENDER_RAYCAST_H
 
 #include "metamer/render.h"
+#include "render/lattice.h"
 #include "render/occupancy.h"
 #include "transfer/rows.h"
 #include "transfer/table.h"
@@ -54,10 +55,5 @@ static inline double mtm_pixel_random(uint32_t x, uint32_t y) {
     h = (h ^ h >> 12) * 0x297A2D39u;
     return (double)(h ^ h >> 15) / 4294967296.0;
 }
-
-/* Every `stride`-th pixel across and down, from (x, y) on. */
-typedef struct mtm_lattice {
-    int x, y, stride;
-} mtm_lattice;
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * The table of renderers and what they share. */
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,13 +88,66 @@ mtm_status mtm_projector_set_transfer(mtm_projector *projector, const mtm_transf
     return status;
 }
 
-mtm_status mtm_projector_render(const mtm_projector *projector, const mtm_camera *camera,
-                                const mtm_render_options *options, const mtm_progress *progress,
-                                mtm_image *image, mtm_error *error) {
+/* A picture on the way through its lattices. */
+typedef struct refining {
+    const mtm_projector *projector;
+    const mtm_camera *camera;
+    const mtm_render_options *options;
+    const mtm_progress *progress; /* NULL: nobody listens */
+    mtm_image *image;
+    double begun, share; /* of the pixels: in lattices before this one, in this one */
+} refining;
+
+static bool report_share(void *user, double fraction) {
+    const refining *picture = user;
+    const mtm_progress *progress = picture->progress;
+    if (progress == NULL || progress->report == NULL) return true;
+    return progress->report(progress->user, fmin(picture->begun + fraction * picture->share, 1));
+}
+
+static mtm_status project(refining *picture, const mtm_lattice *lattice, mtm_error *error) {
+    const mtm_projector *projector = picture->projector;
+    const mtm_image *image = picture->image;
+    const mtm_progress progress = {report_share, picture};
+    picture->share = (double)mtm_lattice_count(lattice, lattice->x, image->width) / image->width *
+                     mtm_lattice_count(lattice, lattice->y, image->height) / image->height;
+    const mtm_status status = projector->renderer->project(
+        projector->prepared, picture->camera, picture->options, lattice, &progress, picture->image, error);
+    picture->begun += picture->share;
+    return status;
+}
+
+static mtm_status finish_stage(const mtm_refinement *refinement, int stride, mtm_error *error) {
+    if (refinement->refined == NULL || refinement->refined(refinement->user, stride)) return MTM_OK;
+    return mtm_fail(error, MTM_CANCELLED, "rendering was cancelled");
+}
+
+mtm_status mtm_projector_refine(const mtm_projector *projector, const mtm_camera *camera,
+                                const mtm_render_options *options, const mtm_refinement *refinement,
+                                const mtm_progress *progress, mtm_image *image, mtm_error *error) {
+    const int coarsest = refinement->coarsest;
     assert(projector->transfer != NULL);
     assert(image->width == options->width && image->height == options->height);
     assert(image->dimension == projector->transfer->dimension && image->lanes == projector->transfer->lanes);
-    return projector->renderer->project(projector->prepared, camera, options, progress, image, error);
+    assert(coarsest >= 1 && coarsest <= 16 && (coarsest & (coarsest - 1)) == 0);
+    refining picture = {
+        .projector = projector, .camera = camera, .options = options, .progress = progress, .image = image};
+    mtm_status status = project(&picture, &(mtm_lattice){0, 0, coarsest}, error);
+    if (status == MTM_OK) status = finish_stage(refinement, coarsest, error);
+    for (int stride = coarsest; stride > 1 && status == MTM_OK; stride /= 2) {
+        const int half = stride / 2;
+        const mtm_lattice finer[] = {{half, 0, stride}, {0, half, stride}, {half, half, stride}};
+        for (int i = 0; i < 3 && status == MTM_OK; i++) status = project(&picture, &finer[i], error);
+        if (status == MTM_OK) status = finish_stage(refinement, half, error);
+    }
+    return status;
+}
+
+mtm_status mtm_projector_render(const mtm_projector *projector, const mtm_camera *camera,
+                                const mtm_render_options *options, const mtm_progress *progress,
+                                mtm_image *image, mtm_error *error) {
+    return mtm_projector_refine(projector, camera, options, &(mtm_refinement){.coarsest = 1}, progress, image,
+                                error);
 }
 
 mtm_status mtm_render(const char *renderer, const mtm_volume *volume, const mtm_transfer *transfer,
