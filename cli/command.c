@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -112,6 +113,22 @@ bool parse_count(argument_walk *walk, const command_option *option, const char *
     }
     *result = (int)number;
     return true;
+}
+
+bool parse_bytes(argument_walk *walk, const command_option *option, const char *value, size_t *result) {
+    static const char *const suffixes[] = {"", "K", "M", "G", "T"};
+    const size_t digit_count = strspn(value, "0123456789");
+    const bool is_number = digit_count >= 1 && digit_count <= 19; /* less than 2^64 */
+    const unsigned long long number = is_number ? strtoull(value, NULL, 10) : 0;
+    for (int i = 0; i < 5; i++) {
+        if (strcmp(value + digit_count, suffixes[i]) != 0 || number == 0 || number > SIZE_MAX >> 10 * i)
+            continue;
+        *result = (size_t)number << 10 * i;
+        return true;
+    }
+    fail_usage(walk, "%s is \"%s\", must be a number of bytes, 1 or more, or one with K, M, G or T",
+               option->name, value);
+    return false;
 }
 
 bool parse_size(argument_walk *walk, const command_option *option, const char *value, int *width,

@@ -4,6 +4,7 @@
 #define METAMER_CLI_COMMAND_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2 };
@@ -55,6 +56,8 @@ bool parse_count(argument_walk *walk, const command_option *option, const char *
 bool parse_size(argument_walk *walk, const command_option *option, const char *value, int *width,
                 int *height);
 bool parse_number(argument_walk *walk, const command_option *option, const char *value, double *result);
+/* Bytes: a whole number, 1 or more, also with K, M, G or T behind it (powers of 1024). */
+bool parse_bytes(argument_walk *walk, const command_option *option, const char *value, size_t *result);
 /* An amount of light, 0 … 10⁶. */
 bool parse_amount(argument_walk *walk, const command_option *option, const char *value, double *result);
 

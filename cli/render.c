@@ -11,6 +11,8 @@ static const command_option options[] = {
     {"--basis", "NAME", "auto, materials, factors:D, sharpened:D, wavelengths or rgb"},
     {"--size", "WxH", "picture size in pixels"},
     {"--threads", "N", "default: all processors; the picture is the same for any"},
+    {"--memory", "SIZE",
+     "for faster copies of the volume: bytes, or with K, M, G, T; default: half of the machine's"},
     {"--volume", "FILE", "the volume to use instead of the scene's"},
     {"--half", NULL, "16-bit coefficients in the EXR, half the size"},
     {"--spectral", NULL, "add T.380,000000nm … channels to the EXR, for programs that read spectral images"},
@@ -20,6 +22,7 @@ static const command_option options[] = {
 typedef struct render_request {
     const char *input, *output, *volume, *renderer, *basis;
     int width, height, threads;
+    size_t memory_bytes; /* 0: the default */
     bool is_half, is_spectral;
 } render_request;
 
@@ -39,6 +42,8 @@ static void read_option(argument_walk *walk, const command_option *option, const
         (void)parse_size(walk, option, value, &request->width, &request->height);
     else if (is_option(option, "--threads"))
         (void)parse_count(walk, option, value, &request->threads);
+    else if (is_option(option, "--memory"))
+        (void)parse_bytes(walk, option, value, &request->memory_bytes);
     else if (is_option(option, "--volume"))
         request->volume = value;
     else if (is_option(option, "--half"))
@@ -56,6 +61,7 @@ static void apply_request(const render_request *request, mtm_scene *scene) {
         scene->render.height = request->height;
     }
     scene->render.thread_count = request->threads;
+    scene->render.memory_bytes = request->memory_bytes;
 }
 
 static mtm_status write_image(const render_request *request, const mtm_scene *scene, const mtm_image *image,

@@ -56,6 +56,11 @@ class Usage(support.CliTest):
         for threads in ("0", "-1", "1.5", "x", "", "2000", "inf"):
             self.refuse("render", "blob.nrrd", "-o", "a.png", "--threads", threads, texts=["--threads"], status=2)
 
+    def test_bad_amounts_of_memory(self):
+        for size in ("0", "0K", "-1", "+1", "1.5G", "1k", "1KB", "G", "1 G", " 1G", "1GG", "", "inf",
+                     "16777216T", "17179869184G", "17592186044416M", "18014398509481984K", "18446744073709551616"):
+            self.refuse("render", "blob.nrrd", "-o", "a.png", "--memory", size, texts=["--memory", f'"{size}"'], status=2)
+
     def test_unknown_names_are_failures(self):
         self.refuse("render", "blob.nrrd", "-o", "a.png", "--renderer", "ray", texts=["ray", "raycast"])
         self.refuse("render", "blob.nrrd", "-o", "a.png", "--basis", "rgbb", texts=["rgbb", "rgb"])
