@@ -5,6 +5,7 @@ import gzip
 import json
 import math
 import os
+import shutil
 import struct
 import subprocess
 import sys
@@ -187,6 +188,16 @@ class CliTest(unittest.TestCase):
             self.assertIn(text, lines[0], arguments)
         self.assertEqual(self.listing(), before, f"{arguments}: files appeared, went or changed")
         return lines[0]
+
+    def make_comma_locale(self):
+        """The locale "comma" in the folder (LOCPATH), if it can be made; localedef warns of the parts that its source
+        leaves out."""
+        program = shutil.which("localedef")
+        source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../comma.locale")
+        words = ["-c", "-i", source, "-f", "ANSI_X3.4-1968", self.path("comma")]
+        if program is not None:
+            subprocess.run([program, *words], capture_output=True, check=False)
+        return os.path.exists(self.path("comma/LC_NUMERIC"))
 
     def assert_same_bytes(self, a, b):
         self.assertTrue(read_bytes(self.path(a)) == read_bytes(self.path(b)), f"{a} and {b} differ")

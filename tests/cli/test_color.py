@@ -4,8 +4,6 @@ same tables of spectra, and what it refuses."""
 import csv
 import math
 import os
-import shutil
-import subprocess
 
 import support
 
@@ -328,15 +326,6 @@ class Output(ColorTest):
             self.skipTest("localedef makes no locale with decimal commas")
         for options in ((), ("--json",)):
             self.assertEqual(len({self.succeed("color", OHTA, *options, env=locale) for locale in locales}), 1)
-
-    def make_comma_locale(self):
-        """In the folder; localedef warns of the parts that the source leaves out."""
-        program = shutil.which("localedef")
-        source = os.path.join(ROOT, "tests/comma.locale")
-        words = ["-c", "-i", source, "-f", "ANSI_X3.4-1968", self.path("comma")]
-        if program is not None:
-            subprocess.run([program, *words], capture_output=True, check=False)
-        return os.path.exists(self.path("comma/LC_NUMERIC"))
 
     def test_as_many_columns_as_a_table_may_have(self):
         names = [f"a column with a long name {i}" for i in range(4096)]
