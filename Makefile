@@ -3,8 +3,7 @@
 # than a line. Words that need packages install them where they are missing (tools/bootstrap).
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
-SCENE ?= examples/engine/engine.json
-RUNS ?= 5
+BENCH ?=
 export FUZZ_SECONDS
 
 .PHONY: help setup build demo test bench bases accuracy format lint asan tsan fuzz install clean
@@ -26,10 +25,9 @@ test: ## everything before a commit: all tests, lint, all tests again under ASan
 	@tools/check release && tools/lint && tools/check asan
 	@echo "make test: all passed"
 
-bench: ## how long projecting and relighting take (SCENE=… RUNS=…), how fast relighting is
+bench: ## how long the steps of pictures take (BENCH="--suite frames --runs 20")
 	@tools/bootstrap --quiet build && tools/build release
-	@build/release/bench/frames $(SCENE) $(RUNS)
-	@build/release/bench/relight
+	@build/release/metamer bench $(BENCH)
 
 bases: ## fit the tables of data/bases again, in place
 	@tools/bootstrap --quiet build && tools/build release

@@ -2,7 +2,7 @@
 """How the program is called: help, version, exit status 0, 1 and 2."""
 import support
 
-COMMANDS = ("render", "relight", "info", "compare", "convert", "color")
+COMMANDS = ("render", "relight", "info", "compare", "convert", "color", "bench")
 
 
 class Usage(support.CliTest):

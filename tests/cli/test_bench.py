@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""metamer bench: the form of what it prints, and what it does without volumes. No test looks at how long anything took."""
+import json
+import os
+import re
+
+import support
+
+MANUAL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../docs/files.md")
+
+# Columns of every row; of those that end in _ms, _p95_ms and _spread_ms stand beside.
+COLUMNS = {
+    "frames": "frame fill spectral_raycast_ms rgb_raycast_ms spectral15_raycast_ms postilluminate_ms spectral_per_rgb "
+              "spectral15_per_rgb project_per_relight prepare_ms classify_ms",
+}
+
+
+def keys_of(suite):
+    keys = []
+    for column in COLUMNS[suite].split():
+        keys.append(column)
+        if column.endswith("_ms"):
+            keys += [column[:-3] + "_p95_ms", column[:-3] + "_spread_ms"]
+    return keys
+
+
+class Bench(support.CliTest):
+    def setUp(self):
+        super().setUp()
+        support.write_nrrd(self.path("engine.nrrd"))
+        self.data = {"METAMER_DATA": self.folder}
+
+    def bench(self, suite, only, *options, env=None):
+        """The document of a suite, in the right form."""
+        document = self.json_of("bench", "--suite", suite, "--only", only, "--runs", 1, *options,
+                                env=self.data if env is None else env)
+        self.check_suite(document, suite)
+        return document
+
+    def check_suite(self, document, suite):
+        self.assertEqual(set(document), {"suite", "size", "threads", "isa", "runs", "rows"})
+        self.assertEqual((document["suite"], document["size"]), (suite, [512, 512]))
+        self.assertGreaterEqual(document["threads"], 1)
+        self.assertIn(document["isa"], ("baseline", "x86-64-v3", "x86-64-v4"))
+        for row in document["rows"]:
+            self.assertEqual(list(row), keys_of(suite))
+            for key, value in row.items():
+                if key.endswith("_ms") and value is not None:
+                    self.assertGreaterEqual(value, 0, key)
+
+    def check_timed(self, row, but=()):
+        """Everything that is not in `but` has a value; the statistics of the times fit together."""
+        self.assertEqual({key for key, value in row.items() if value is None}, set(but))
+        for key in row:
+            if key.endswith("_p95_ms") and row[key] is not None:
+                self.assertLessEqual(row[key.replace("_p95", "")], row[key])
+                self.assertLessEqual(row[key.replace("_p95", "_spread")], row[key])
+
+    def check_ratio(self, row, ratio, numerator, denominator):
+        expected = row[numerator] / row[denominator]
+        self.assertAlmostEqual(row[ratio] / expected, 1, 4)
+
+    def test_frames(self):
+        document = self.bench("frames", "engine", "--threads", 1)
+        self.assertEqual((document["threads"], document["runs"]), (1, 1))
+        self.assertEqual([row["frame"] for row in document["rows"]], ["engine smoke", "engine solid"])
+        for row in document["rows"]:
+            self.check_timed(row)
+            self.assertTrue(0 < row["fill"] < 1)
+            self.check_ratio(row, "spectral_per_rgb", "spectral_raycast_ms", "rgb_raycast_ms")
+            self.check_ratio(row, "spectral15_per_rgb", "spectral15_raycast_ms", "rgb_raycast_ms")
+            self.check_ratio(row, "project_per_relight", "spectral_raycast_ms", "postilluminate_ms")
+
+    def test_one_run_does_not_scatter_and_several_may(self):
+        (row,) = self.bench("frames", "engine solid")["rows"]
+        for key in row:
+            if key.endswith("_spread_ms"):
+                self.assertEqual(row[key], 0)
+                self.assertEqual(row[key.replace("_spread", "_p95")], row[key.replace("_spread", "")])
+        (row,) = self.bench("frames", "engine solid", "--runs", 3)["rows"]
+        self.check_timed(row)
+        self.assertGreater(row["spectral_raycast_spread_ms"], 0)
+
+    def test_volumes_that_are_not_there_leave_their_rows_empty(self):
+        result = self.call("bench", "--suite", "frames", "--only", "i", "--runs", 1, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        document = json.loads(result.stdout)
+        self.check_suite(document, "frames")
+        rows = {row.pop("frame"): row for row in document["rows"]}
+        self.assertEqual(set(rows), {"engine smoke", "engine solid", "neghip", "uncbrain", "bonsai", "aneurism"})
+        self.assertEqual(len(result.stderr.splitlines()), 6)
+        for file in ("engine.nrrd", "neghip.nrrd", "uncbrain.nrrd", "bonsai.nrrd", "aneurism.nrrd"):
+            self.assertIn(file, result.stderr)
+        for row in rows.values():
+            self.assertEqual(set(row.values()), {None})
+
+    def test_volumes_of_the_examples_are_found(self):
+        self.write_example("engine.nrrd")
+        (row,) = self.bench("frames", "engine solid", env={"METAMER_DATA": "/nonexistent::"})["rows"]
+        self.check_timed(row)
+
+    def test_voxels_that_are_not_bytes_leave_the_row_empty(self):
+        support.write_nrrd(self.path("engine.nrrd"), type_="int16")
+        result = self.call("bench", "--suite", "frames", "--only", "solid", "--json", env=self.data)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIsNone(json.loads(result.stdout)["rows"][0]["fill"])
+        self.assertRegex(result.stderr, "^metamer bench: note: .*engine.nrrd.*int16.*\n$")
+
+    def test_a_broken_volume_is_a_failure(self):
+        self.write_text("engine.nrrd", "NRRD0004\ntype: none\n\n")
+        self.refuse("bench", "--suite", "frames", "--only", "solid", texts=["engine.nrrd"], env=self.data)
+
+    def write_example(self, volume):
+        """The scene examples/engine/engine.json, and its volume where there is one."""
+        os.makedirs(self.path("examples/engine"))
+        self.write_json("examples/engine/engine.json", support.make_scene("engine.nrrd"))
+        if volume is not None:
+            support.write_nrrd(self.path("examples/engine/" + volume))
+
+    def test_the_table_holds_the_rows_in_any_locale(self):
+        locale = {"LC_ALL": "", "LC_NUMERIC": "comma", "LOCPATH": self.folder} if self.make_comma_locale() else {}
+        table = self.succeed("bench", "--suite", "frames", "--only", "engine solid", "--runs", 1,
+                             env={**self.data, **locale})
+        (line,) = [line for line in table.splitlines() if re.match(r"engine solid +0\.\d+  ", line)]
+        self.assertNotIn(",", line)
+
+    def test_the_manual_describes_every_column(self):
+        with open(MANUAL, encoding="utf-8") as stream:
+            section = stream.read().split("## `metamer bench")[1].split("\n## ")[0]
+        described = set(re.findall(r"`([a-z0-9_]+)`", section))
+        for columns in COLUMNS.values():
+            self.assertLessEqual(set(columns.split()), described)
+
+    def test_bad_usage(self):
+        for words, texts in ((["--suite", "frame"], ["frame", "frames"]),
+                             (["--suite"], ["--suite"]), (["frames"], ["frames"]), (["--runs", "0"], ["--runs", "0"]),
+                             (["--runs", "257"], ["257"]), (["--runs", "1.5"], ["1.5"]), (["--threads", "x"], ["x"]),
+                             (["--json=yes"], ["--json"]), (["--size", "8x8"], ["--size"])):
+            self.refuse("bench", *words, texts=texts, status=2)
+
+    def test_names_that_no_row_has(self):
+        self.refuse("bench", "--only", "no such row", texts=["no such row"])
+
+
+if __name__ == "__main__":
+    support.main()
