@@ -12,7 +12,14 @@ MANUAL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../docs/fi
 COLUMNS = {
     "frames": "frame fill spectral_raycast_ms rgb_raycast_ms spectral15_raycast_ms postilluminate_ms spectral_per_rgb "
               "spectral15_per_rgb project_per_relight prepare_ms classify_ms",
+    "table1": "volume fill spectral_raycast_ms rgb_raycast_ms postilluminate_ms transfer_change_ms classify_ms "
+              "spectral_per_rgb relight_per_project relight_per_transfer_change relight_per_classify spectral_splat_ms "
+              "rgb_splat_ms splat_relight_ms fourier_prepare_ms fourier_ms fourier_relight_ms rgb_fourier_ms paper_fill "
+              "paper_spectral_raycast_fps paper_postilluminate_fps paper_rgb_raycast_fps paper_spectral_splat_fps "
+              "paper_rgb_splat_fps paper_fourier_fps paper_fourier_relight_fps paper_fourier_prepare_s",
 }
+NOT_THERE = {column for column in COLUMNS["table1"].split() if re.search("splat|fourier", column)
+             and not column.startswith("paper")}
 
 
 def keys_of(suite):
@@ -117,6 +124,36 @@ class Bench(support.CliTest):
         if volume is not None:
             support.write_nrrd(self.path("examples/engine/" + volume))
 
+    def test_table1(self):
+        self.write_example("engine.nrrd")
+        (row,) = self.bench("table1", "engine", env={})["rows"]
+        empty = {key for key in keys_of("table1")
+                 if key in NOT_THERE or re.sub("_(p95|spread)", "", key) in NOT_THERE}
+        self.check_timed(row, but=empty)
+        self.assertEqual((row["volume"], row["paper_fill"], row["paper_rgb_raycast_fps"]), ("engine", 0.79, 0.15))
+        self.assertEqual((row["paper_fourier_relight_fps"], row["paper_fourier_prepare_s"]), (47.6, 85))
+        self.assertTrue(0 < row["fill"] < 1)
+        self.assertGreaterEqual(row["transfer_change_ms"], row["classify_ms"])
+        for what in ("transfer_change", "classify"):
+            self.check_ratio(row, "relight_per_" + what, "postilluminate_ms", what + "_ms")
+        self.check_ratio(row, "relight_per_project", "postilluminate_ms", "spectral_raycast_ms")
+
+    def test_table1_without_the_volume_is_the_paper_alone(self):
+        self.write_example(None)
+        result = self.call("bench", "--suite", "table1", "--json", "--runs", 1)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        document = json.loads(result.stdout)
+        self.check_suite(document, "table1")
+        self.assertEqual([row["volume"] for row in document["rows"]], ["hipiph", "tomato", "uncbrain", "engine", "frog"])
+        self.assertEqual(len(result.stderr.splitlines()), 5)
+        for row in document["rows"]:
+            for key in keys_of("table1"):
+                if key.startswith("paper") and "fourier" not in key:
+                    self.assertIsInstance(row[key], (int, float))
+                elif key != "volume" and not key.startswith("paper"):
+                    self.assertIsNone(row[key], key)
+        self.assertIsNone(document["rows"][4]["paper_fourier_fps"])
+
     def test_the_table_holds_the_rows_in_any_locale(self):
         locale = {"LC_ALL": "", "LC_NUMERIC": "comma", "LOCPATH": self.folder} if self.make_comma_locale() else {}
         table = self.succeed("bench", "--suite", "frames", "--only", "engine solid", "--runs", 1,
@@ -132,7 +169,7 @@ class Bench(support.CliTest):
             self.assertLessEqual(set(columns.split()), described)
 
     def test_bad_usage(self):
-        for words, texts in ((["--suite", "frame"], ["frame", "frames"]),
+        for words, texts in ((["--suite", "frame"], ["frame", "frames or table1"]),
                              (["--suite"], ["--suite"]), (["frames"], ["frames"]), (["--runs", "0"], ["--runs", "0"]),
                              (["--runs", "257"], ["257"]), (["--runs", "1.5"], ["1.5"]), (["--threads", "x"], ["x"]),
                              (["--json=yes"], ["--json"]), (["--size", "8x8"], ["--size"])):
