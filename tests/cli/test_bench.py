@@ -17,6 +17,8 @@ COLUMNS = {
               "rgb_splat_ms splat_relight_ms fourier_prepare_ms fourier_ms fourier_relight_ms rgb_fourier_ms paper_fill "
               "paper_spectral_raycast_fps paper_postilluminate_fps paper_rgb_raycast_fps paper_spectral_splat_fps "
               "paper_rgb_splat_fps paper_fourier_fps paper_fourier_relight_fps paper_fourier_prepare_s",
+    "kernels": "kernel width height lanes format isa threads postilluminate_ms gigabytes_per_s triad_gigabytes_per_s "
+               "share_of_triad spectral_raycast_ms",
 }
 NOT_THERE = {column for column in COLUMNS["table1"].split() if re.search("splat|fourier", column)
              and not column.startswith("paper")}
@@ -154,6 +156,20 @@ class Bench(support.CliTest):
                     self.assertIsNone(row[key], key)
         self.assertIsNone(document["rows"][4]["paper_fourier_fps"])
 
+    def test_kernels(self):
+        rows = self.bench("kernels", "512x512 4 lanes float", "--threads", 1)["rows"]
+        self.assertEqual(rows[0]["isa"], "baseline")
+        for row in rows:
+            self.check_timed(row, but=[f"spectral_raycast{part}_ms" for part in ("", "_p95", "_spread")])
+            self.assertEqual((row["kernel"], row["lanes"], row["format"], row["threads"]), ("relight", 4, "float", 1))
+            bytes_ = 512 * 512 * (4 * 4 + 4)
+            self.assertAlmostEqual(row["gigabytes_per_s"] / (1e-6 * bytes_ / row["postilluminate_ms"]), 1, 4)
+            self.check_ratio(row, "share_of_triad", "gigabytes_per_s", "triad_gigabytes_per_s")
+        rows = self.bench("kernels", "raycast engine smoke baseline")["rows"]
+        self.assertEqual([row["threads"] for row in rows], list(range(1, len(rows) + 1)))
+        for row in rows:
+            self.assertIsNotNone(row["spectral_raycast_ms"])
+
     def test_the_table_holds_the_rows_in_any_locale(self):
         locale = {"LC_ALL": "", "LC_NUMERIC": "comma", "LOCPATH": self.folder} if self.make_comma_locale() else {}
         table = self.succeed("bench", "--suite", "frames", "--only", "engine solid", "--runs", 1,
@@ -169,7 +185,7 @@ class Bench(support.CliTest):
             self.assertLessEqual(set(columns.split()), described)
 
     def test_bad_usage(self):
-        for words, texts in ((["--suite", "frame"], ["frame", "frames or table1"]),
+        for words, texts in ((["--suite", "frame"], ["frame", "frames, table1 or kernels"]),
                              (["--suite"], ["--suite"]), (["frames"], ["frames"]), (["--runs", "0"], ["--runs", "0"]),
                              (["--runs", "257"], ["257"]), (["--runs", "1.5"], ["1.5"]), (["--threads", "x"], ["x"]),
                              (["--json=yes"], ["--json"]), (["--size", "8x8"], ["--size"])):
