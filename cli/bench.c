@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const bench_suite *const suites[] = {&frames_suite, &table1_suite, &kernels_suite};
+static const bench_suite *const suites[] = {&frames_suite, &table1_suite, &kernels_suite, &scaling_suite};
 enum { SUITES = sizeof suites / sizeof *suites };
 
-#define SUITE_NAMES "frames, table1 or kernels"
+#define SUITE_NAMES "frames, table1, kernels or scaling"
 
 static const command_option options[] = {
     {"--suite", "NAME", SUITE_NAMES "; default: all of them"},

@@ -19,6 +19,8 @@ COLUMNS = {
               "paper_rgb_splat_fps paper_fourier_fps paper_fourier_relight_fps paper_fourier_prepare_s",
     "kernels": "kernel width height lanes format isa threads postilluminate_ms gigabytes_per_s triad_gigabytes_per_s "
                "share_of_triad spectral_raycast_ms",
+    "scaling": "varied value threads picture_edge volume_edge lanes fill raycast_ms postilluminate_ms classify_ms "
+               "affine_r_squared",
 }
 NOT_THERE = {column for column in COLUMNS["table1"].split() if re.search("splat|fourier", column)
              and not column.startswith("paper")}
@@ -170,6 +172,16 @@ class Bench(support.CliTest):
         for row in rows:
             self.assertIsNotNone(row["spectral_raycast_ms"])
 
+    def test_scaling(self):
+        rows = self.bench("scaling", "fill")["rows"]
+        self.assertEqual([row["value"] for row in rows], [0.05, 0.1, 0.25, 0.5, 0.75, 1])
+        self.assertEqual(len({row["affine_r_squared"] for row in rows}), 1)
+        self.assertTrue(0 <= rows[0]["affine_r_squared"] <= 1)
+        (row,) = self.bench("scaling", "volume_edge 64", "--threads", 1)["rows"]
+        self.check_timed(row, but=["affine_r_squared"])
+        self.assertEqual((row["varied"], row["value"], row["volume_edge"]), ("volume_edge", 64, 64))
+        self.assertEqual((row["threads"], row["picture_edge"], row["lanes"]), (1, 512, 8))
+
     def test_the_table_holds_the_rows_in_any_locale(self):
         locale = {"LC_ALL": "", "LC_NUMERIC": "comma", "LOCPATH": self.folder} if self.make_comma_locale() else {}
         table = self.succeed("bench", "--suite", "frames", "--only", "engine solid", "--runs", 1,
@@ -185,7 +197,7 @@ class Bench(support.CliTest):
             self.assertLessEqual(set(columns.split()), described)
 
     def test_bad_usage(self):
-        for words, texts in ((["--suite", "frame"], ["frame", "frames, table1 or kernels"]),
+        for words, texts in ((["--suite", "frame"], ["frame", "frames, table1, kernels or scaling"]),
                              (["--suite"], ["--suite"]), (["frames"], ["frames"]), (["--runs", "0"], ["--runs", "0"]),
                              (["--runs", "257"], ["257"]), (["--runs", "1.5"], ["1.5"]), (["--threads", "x"], ["x"]),
                              (["--json=yes"], ["--json"]), (["--size", "8x8"], ["--size"])):
