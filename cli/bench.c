@@ -7,10 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const bench_suite *const suites[] = {&frames_suite, &table1_suite, &kernels_suite, &scaling_suite};
+static const bench_suite *const suites[] = {&frames_suite, &table1_suite, &kernels_suite, &scaling_suite,
+                                            &ablation_suite};
 enum { SUITES = sizeof suites / sizeof *suites };
 
-#define SUITE_NAMES "frames, table1, kernels or scaling"
+#define SUITE_NAMES "frames, table1, kernels, scaling or ablation"
 
 static const command_option options[] = {
     {"--suite", "NAME", SUITE_NAMES "; default: all of them"},

@@ -21,6 +21,7 @@ COLUMNS = {
                "share_of_triad spectral_raycast_ms",
     "scaling": "varied value threads picture_edge volume_edge lanes fill raycast_ms postilluminate_ms classify_ms "
                "affine_r_squared",
+    "ablation": "frame device isa spectral_raycast_ms per_everything prepare_ms classify_ms psnr_db",
 }
 NOT_THERE = {column for column in COLUMNS["table1"].split() if re.search("splat|fourier", column)
              and not column.startswith("paper")}
@@ -182,6 +183,32 @@ class Bench(support.CliTest):
         self.assertEqual((row["varied"], row["value"], row["volume_edge"]), ("volume_edge", 64, 64))
         self.assertEqual((row["threads"], row["picture_edge"], row["lanes"]), (1, 512, 8))
 
+    def test_ablation(self):
+        (row,) = self.bench("ablation", "engine smoke everything")["rows"]
+        self.check_timed(row)
+        self.assertEqual((row["frame"], row["device"], row["per_everything"]), ("engine smoke", "everything", 1))
+        self.assertTrue(40 < row["psnr_db"] <= 200)
+        (row,) = self.bench("ablation", "engine smoke without termination")["rows"]
+        self.check_timed(row, but=["per_everything"])
+
+    def test_ablation_names_every_device(self):
+        result = self.call("bench", "--suite", "ablation", "--only", " with", "--json")
+        document = json.loads(result.stdout)
+        self.check_suite(document, "ablation")
+        for frame in ("engine smoke", "bonsai smoke"):
+            without = [row["device"] for row in document["rows"]
+                       if row["frame"] == frame and row["device"].startswith("without ")]
+            self.assertEqual(without, ["without termination"])
+        self.assertEqual(len(result.stderr.splitlines()), 2)
+
+    def test_without_a_suite_all_of_them_run(self):
+        self.write_example("engine.nrrd")
+        documents = self.json_of("bench", "--runs", 1, "--only", "engine smoke everything", env=self.data)
+        self.assertEqual([document["suite"] for document in documents], list(COLUMNS))
+        for document in documents:
+            self.check_suite(document, document["suite"])
+        self.assertEqual([len(document["rows"]) for document in documents], [0, 0, 0, 0, 1])
+
     def test_the_table_holds_the_rows_in_any_locale(self):
         locale = {"LC_ALL": "", "LC_NUMERIC": "comma", "LOCPATH": self.folder} if self.make_comma_locale() else {}
         table = self.succeed("bench", "--suite", "frames", "--only", "engine solid", "--runs", 1,
@@ -197,7 +224,7 @@ class Bench(support.CliTest):
             self.assertLessEqual(set(columns.split()), described)
 
     def test_bad_usage(self):
-        for words, texts in ((["--suite", "frame"], ["frame", "frames, table1, kernels or scaling"]),
+        for words, texts in ((["--suite", "frame"], ["frame", "frames, table1, kernels, scaling or ablation"]),
                              (["--suite"], ["--suite"]), (["frames"], ["frames"]), (["--runs", "0"], ["--runs", "0"]),
                              (["--runs", "257"], ["257"]), (["--runs", "1.5"], ["1.5"]), (["--threads", "x"], ["x"]),
                              (["--json=yes"], ["--json"]), (["--size", "8x8"], ["--size"])):
