@@ -15,13 +15,19 @@ static const char *const columns[] = {
 /* What differs from everything. */
 typedef struct ablation {
     const char *name;
-    const char *isa;     /* NULL: the one that is chosen */
-    bool is_never_ended; /* no termination */
+    int without;                                        /* of MTM_WITHOUT_… */
+    const char *isa;                                    /* NULL: the one that is chosen */
+    bool is_never_ended, is_classified_last, is_native; /* no termination, pre-integration, derived layout */
 } ablation;
 
 static const ablation devices[] = {
     {.name = "everything"},
+    {.name = "without packets", .without = MTM_WITHOUT_PACKETS},
+    {.name = "without skipping", .without = MTM_WITHOUT_SKIPPING},
+    {.name = "without prefetch", .without = MTM_WITHOUT_PREFETCH},
     {.name = "without termination", .is_never_ended = true},
+    {.name = "without pre-integration", .is_classified_last = true},
+    {.name = "without derived layout", .is_native = true},
     {.name = "with x86-64-v3", .isa = "x86-64-v3"},
     {.name = "with baseline", .isa = "baseline"},
 };
@@ -35,13 +41,13 @@ static const named_volume named_volumes[] = {{"engine smoke", "engine.nrrd"},
                                              {"bonsai smoke", "bonsai.nrrd"}};
 enum { NAMED_VOLUMES = sizeof named_volumes / sizeof *named_volumes };
 
-/* The devices of a frame that take turns. */
+/* The devices of a frame that take turns, on one prepared volume but for the native voxels, which are another. */
 typedef struct ablation_race {
     const char *frame;
     bench_points points;
     int count;
     const ablation *devices[DEVICES];
-    bench_subject subject;
+    bench_subject derived, native;
     bench_frame frames[DEVICES];
     double psnr_db[DEVICES];
 } ablation_race;
@@ -64,11 +70,14 @@ static void list_devices(const bench_settings *settings, ablation_race *race) {
     }
 }
 
-static mtm_status prepare(const bench_settings *settings, const mtm_volume *volume, ablation_race *race,
-                          mtm_error *error) {
+static mtm_status prepare_both(const bench_settings *settings, const mtm_volume *volume, ablation_race *race,
+                               mtm_error *error) {
     mtm_status status =
-        describe_subject(volume, &race->points, settings->thread_count, &race->subject, error);
-    if (status == MTM_OK) status = prepare_subject(volume, settings->run_count, &race->subject, error);
+        describe_subject(volume, &race->points, settings->thread_count, &race->derived, error);
+    race->native = race->derived;
+    race->native.options.memory_bytes = 1; /* in which no layout fits */
+    if (status == MTM_OK) status = prepare_subject(volume, settings->run_count, &race->derived, error);
+    if (status == MTM_OK) status = prepare_subject(volume, settings->run_count, &race->native, error);
     return status;
 }
 
@@ -78,17 +87,20 @@ static mtm_status create_device(const ablation *device, bench_subject *subject, 
     make_reflectances(3, reflectances);
     const mtm_status status = create_frame(subject, "factors:7", 3, reflectances, BENCH_PICTURE_EDGE,
                                            BENCH_PICTURE_EDGE, frame, error);
+    frame->options.without = device->without;
     if (device->is_never_ended) frame->options.termination = 0;
+    if (device->is_classified_last) frame->options.is_preintegrated = false;
     if (device->isa != NULL) frame->isa = device->isa;
     return status;
 }
 
 static mtm_status set_up_race(const bench_settings *settings, const mtm_volume *volume, ablation_race *race,
                               mtm_error *error) {
-    mtm_status status = prepare(settings, volume, race, error);
+    mtm_status status = prepare_both(settings, volume, race, error);
     for (int i = 0; i < race->count && status == MTM_OK; i++) {
         const ablation *device = race->devices[i];
-        status = create_device(device, &race->subject, &race->frames[i], error);
+        status = create_device(device, device->is_native ? &race->native : &race->derived, &race->frames[i],
+                               error);
     }
     return status;
 }
@@ -96,7 +108,7 @@ static mtm_status set_up_race(const bench_settings *settings, const mtm_volume *
 /* How far the first view is from the plain renderer's without an end of rays, with each device. */
 static mtm_status compare_devices(ablation_race *race, mtm_error *error) {
     mtm_picture *reference = NULL;
-    mtm_render_options plain = plain_options(&race->subject.options);
+    mtm_render_options plain = plain_options(&race->derived.options);
     plain.width = plain.height = BENCH_PICTURE_EDGE;
     plain.termination = 0;
     mtm_status status = render_first_view(&race->frames[0], &plain, &reference, error);
@@ -148,7 +160,8 @@ static mtm_status run_volume(const bench_settings *settings, const named_volume 
     mtm_status status = race.count == 0 ? MTM_OK : find_volume(named->file, &volume, error);
     if (volume != NULL) status = time_race(settings, volume, &race, error);
     for (int i = 0; i < race.count && status == MTM_OK; i++) add_device_row(&race, i, rows);
-    release_subject(&race.subject);
+    release_subject(&race.derived);
+    release_subject(&race.native);
     for (int i = 0; i < race.count; i++) release_frame(&race.frames[i]);
     mtm_volume_destroy(volume);
     return status;

@@ -10,6 +10,7 @@ enum { CHECK_EDGE = 128 };
 
 mtm_render_options plain_options(const mtm_render_options *options) {
     mtm_render_options plain = *options;
+    plain.without = MTM_WITHOUT_PACKETS;
     return plain;
 }
 

@@ -198,7 +198,9 @@ class Bench(support.CliTest):
         for frame in ("engine smoke", "bonsai smoke"):
             without = [row["device"] for row in document["rows"]
                        if row["frame"] == frame and row["device"].startswith("without ")]
-            self.assertEqual(without, ["without termination"])
+            self.assertEqual(without, ["without " + device for device in
+                                       ("packets", "skipping", "prefetch", "termination", "pre-integration",
+                                        "derived layout")])
         self.assertEqual(len(result.stderr.splitlines()), 2)
 
     def test_without_a_suite_all_of_them_run(self):
