@@ -40,8 +40,8 @@ static int finish_output(const char *command, int status) {
 static void print_version(void) {
     (void)printf("metamer %s\nLicence: BSD-3-Clause. Links zlib, libpng, jansson, OpenEXR and OpenSSL's "
                  "libcrypto, all "
-                 "under permissive licences; no GPL code.\n",
-                 mtm_version());
+                 "under permissive licences; no GPL code.\nInstruction set on this machine: %s\n",
+                 mtm_version(), mtm_isa_name());
 }
 
 int main(int argc, char **argv) {

@@ -27,6 +27,11 @@ class Usage(support.CliTest):
         self.assertRegex(text, r"^metamer \d+\.\d+\.\d+\n")
         self.assertIn("BSD-3-Clause", text)
 
+    def test_the_instruction_set_obeys_the_environment(self):
+        self.assertRegex(self.succeed("--version"), r"\nInstruction set on this machine: (baseline|x86-64-v[34])\n$")
+        lowered = self.succeed("--version", env={"METAMER_ISA": "baseline"})
+        self.assertIn("machine: baseline\n", lowered)
+
     def test_bad_usage_is_one_line_and_status_2(self):
         for words, texts in (
                 (["paint"], ["paint"]), (["--paint"], ["--paint"]), ([""], ["\"\""]),
