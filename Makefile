@@ -6,7 +6,7 @@ FUZZ_SECONDS ?= 60
 BENCH ?=
 export FUZZ_SECONDS
 
-.PHONY: help setup build demo test bench bases accuracy format lint asan tsan fuzz emulate install clean
+.PHONY: help setup build demo test bench bases accuracy format lint asan tsan fuzz big emulate install clean
 
 help: ## this list
 	@sed -nE 's/^([a-z]+):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -51,6 +51,10 @@ tsan: ## build and test with ThreadSanitizer
 
 fuzz: ## FUZZ_SECONDS (default 60) of libFuzzer for every reader
 	@tools/bootstrap --quiet && tools/fuzz
+
+big: ## how much memory a volume of 1024³ voxels takes, and what its picture loses (1 GiB in build/big)
+	@tools/bootstrap --quiet build && tools/build release
+	@tools/big
 
 emulate: ## on a processor without AVX and on arm64, under QEMU: tests, and pictures against this machine's
 	@tools/bootstrap --quiet emulate
