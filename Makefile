@@ -4,9 +4,10 @@
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
 BENCH ?=
+ROUNDS ?= 5
 export FUZZ_SECONDS
 
-.PHONY: help setup build demo test bench bases accuracy format lint asan tsan fuzz big emulate install clean
+.PHONY: help setup build demo test bench bases accuracy format lint asan tsan fuzz peers big emulate install clean
 
 help: ## this list
 	@sed -nE 's/^([a-z]+):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -51,6 +52,10 @@ tsan: ## build and test with ThreadSanitizer
 
 fuzz: ## FUZZ_SECONDS (default 60) of libFuzzer for every reader
 	@tools/bootstrap --quiet && tools/fuzz
+
+peers: ## speed against VTK, VolPack and libvips on this machine, asked and measured (METAMER_DATA, ROUNDS=…)
+	@tools/bootstrap --quiet peers && tools/build release metamer peers
+	@tools/peers $(ROUNDS)
 
 big: ## how much memory a volume of 1024³ voxels takes, and what its picture loses (1 GiB in build/big)
 	@tools/bootstrap --quiet build && tools/build release
