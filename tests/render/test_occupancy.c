@@ -80,7 +80,7 @@ static double random_corner(const mtm_occupancy *occupancy, int axis, uint32_t *
 }
 
 static void check_boxes(const mtm_occupancy *occupancy, uint32_t *random, int found[2]) {
-    for (int n = 0; n < 2000; n++) {
+    for (int n = 0; n < 500; n++) {
         double low[3];
         double high[3];
         bool must = false;
@@ -125,7 +125,7 @@ static void any_is_what_a_look_at_every_block_finds(void **state) {
         }
         mtm_volume_destroy(volume);
     }
-    assert_true(found[0] > 10000 && found[1] > 10000);
+    assert_true(found[0] > 3000 && found[1] > 3000);
 }
 
 static void a_block_is_visible_where_its_values_are(void **state) {

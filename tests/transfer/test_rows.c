@@ -6,7 +6,7 @@
 
 #include "fixture.h"
 
-enum { ROWS_MOST = 65536, POINTS = 6 };
+enum { ROWS_MOST = 65536, POINTS = 7 };
 
 /* Voxels with stored values low … high, and where the points' first and last physical values are. */
 typedef struct rows_case {
@@ -48,9 +48,13 @@ static mtm_transfer *create_transfer(int count, const mtm_transfer_point *points
 
 /* Over shares of the points' range: invisible ends, a jump, emission of its own; visible from 0.2 to 0.9. */
 static mtm_transfer *create_uneven(const rows_case *from, bool has_emission, const char *basis_name) {
-    mtm_transfer_point points[POINTS] = {{0, 0, 0, false, 0},      {0.2, 0, 0, false, 1},
-                                         {0.45, 0.6, 0, false, 1}, {0.45, 0.1, 0.4, has_emission, 2},
-                                         {0.9, 0, 0, false, 0},    {1, 0, 0, false, 0}};
+    mtm_transfer_point points[POINTS] = {{0, 0, 0, false, 0},
+                                         {0.2, 0, 0, false, 1},
+                                         {0.45, 0.6, 0, false, 1},
+                                         {0.45, 0.1, 0.4, has_emission, 2},
+                                         {0.7, 0.5, 0.05, has_emission, 0},
+                                         {0.9, 0, 0, false, 0},
+                                         {1, 0, 0, false, 0}};
     for (int i = 0; i < POINTS; i++)
         points[i].value = from->first + points[i].value * (from->last - from->first);
     return create_transfer(POINTS, points, 2, basis_name);
