@@ -275,8 +275,8 @@ MTM_INLINE void mtm_vector_spill_floats(mtm_vector x, float to[MTM_VECTOR_WIDTH]
 
 #if MTM_VECTOR_WIDTH > 4
 MTM_INLINE __m128 mtm_load_two_pairs(const int32_t *first, const int32_t *second) {
-    const __m128 low = _mm_castpd_ps(_mm_load_sd((const void *)first));
-    return _mm_loadh_pi(low, (const void *)second);
+    return _mm_castsi128_ps(
+        _mm_unpacklo_epi64(_mm_loadl_epi64((const void *)first), _mm_loadl_epi64((const void *)second)));
 }
 #endif
 
