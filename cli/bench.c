@@ -18,6 +18,8 @@ static const command_option options[] = {
     {"--only", "TEXT", "only the rows whose name contains this"},
     {"--runs", "N", "timed runs, default 10; run k looks from view k mod 8"},
     {"--threads", "N", "default: all processors"},
+    {"--size", "WxH", "pictures of the suite frames, default 512x512"},
+    {"--post-classified", NULL, "the suite frames without pre-integration, as other renderers do"},
     {"--json", NULL, "print a JSON document"},
     {NULL, NULL, NULL},
 };
@@ -41,9 +43,11 @@ static const bench_suite *find_suite(const char *name) {
 
 static json_t *describe_suite(const bench_suite *suite, const bench_settings *settings,
                               const bench_rows *rows) {
-    return json_pack("{s:s, s:[i,i], s:i, s:s, s:i, s:O}", "suite", suite->name, "size", BENCH_PICTURE_EDGE,
-                     BENCH_PICTURE_EDGE, "threads", settings->thread_count, "isa", mtm_isa_name(), "runs",
-                     settings->run_count, "rows", rows->array);
+    const bool is_frames = suite == &frames_suite; /* the only one whose pictures have a choice */
+    return json_pack("{s:s, s:[i,i], s:i, s:s, s:i, s:O}", "suite", suite->name, "size",
+                     is_frames ? settings->width : BENCH_PICTURE_EDGE,
+                     is_frames ? settings->height : BENCH_PICTURE_EDGE, "threads", settings->thread_count,
+                     "isa", mtm_isa_name(), "runs", settings->run_count, "rows", rows->array);
 }
 
 static void print_suite(const bench_suite *suite, const bench_settings *settings, const bench_rows *rows) {
@@ -116,14 +120,21 @@ static void read_option(argument_walk *walk, const command_option *option, const
         (void)parse_count(walk, option, value, &request->settings.run_count);
     else if (is_option(option, "--threads"))
         (void)parse_count(walk, option, value, &request->settings.thread_count);
+    else if (is_option(option, "--size"))
+        (void)parse_size(walk, option, value, &request->settings.width, &request->settings.height);
+    else if (is_option(option, "--post-classified"))
+        request->settings.is_post_classified = true;
     else
         request->is_json = true;
 }
 
 static int run(const subcommand *command, int argc, char **argv) {
     progress_bar bar;
-    bench_request request = {
-        .settings = {.thread_count = mtm_default_thread_count(), .run_count = 10, .bar = &bar}};
+    bench_request request = {.settings = {.thread_count = mtm_default_thread_count(),
+                                          .run_count = 10,
+                                          .width = BENCH_PICTURE_EDGE,
+                                          .height = BENCH_PICTURE_EDGE,
+                                          .bar = &bar}};
     argument_walk walk = walk_arguments(command, argc, argv);
     const command_option *option = NULL;
     const char *value = NULL;

@@ -8,7 +8,9 @@
 
 typedef struct bench_settings {
     int thread_count, run_count;
-    const char *only; /* a part of the names of the rows that are wanted; NULL: all */
+    int width, height;       /* of the pictures of the suite frames */
+    bool is_post_classified; /* these without pre-integration */
+    const char *only;        /* a part of the names of the rows that are wanted; NULL: all */
     progress_bar *bar;
 } bench_settings;
 

@@ -42,8 +42,7 @@ mtm_status describe_subject(const mtm_volume *volume, const bench_points *points
                                .points = points->points,
                                .opacity_length = 1,
                                .camera = mtm_camera_defaults(),
-                               .options = mtm_render_defaults(),
-                               .psnr_min_db = BENCH_PSNR_DB};
+                               .options = mtm_render_defaults()};
     subject->camera.azimuth = 15;
     subject->camera.elevation = 20;
     subject->camera.distance = 1.75 * (longest > size[2] ? longest : size[2]);

@@ -17,7 +17,6 @@ typedef struct bench_subject {
     mtm_camera camera; /* of the first view */
     mtm_render_options options;
     mtm_illumination illumination;
-    double psnr_min_db;  /* how near the plain renderer its pictures must be */
     bench_times prepare; /* mtm_projector_create */
 } bench_subject;
 
@@ -28,11 +27,7 @@ typedef struct bench_points {
 } bench_points;
 bench_points points_of(const char *transfer);
 
-enum {
-    BENCH_PSNR_DB = 50, /* as an error of 0.8 of 255 levels everywhere */
-    BENCH_PSNR_RIPPLES_DB =
-        40, /* of the Marschner-Lobb signal: layouts that round gradients to 8 bits tilt them */
-};
+enum { BENCH_PSNR_DB = 50 /* how near the plain renderer pictures must be: 0.8 of 255 levels everywhere */ };
 
 /* The common frame of a volume: 512 × 512 pixels, perspective of 30° from 1.75 times the longest edge (in voxels), step
  * 1, termination 0.01, Phong with a headlight, D65. `points` must live as long as the subject. */

@@ -34,15 +34,16 @@ enum { NAMED_FRAMES = sizeof named_frames / sizeof *named_frames, MARSCHNER_LOBB
 /* What takes turns. */
 enum { SPECTRAL, RGB, SPECTRAL15, VARIANTS };
 
-static mtm_status create_variants(bench_subject *subject, bench_frame frames[VARIANTS], mtm_error *error) {
+static mtm_status create_variants(const bench_settings *settings, bench_subject *subject,
+                                  bench_frame frames[VARIANTS], mtm_error *error) {
     static const char *const bases[VARIANTS] = {"factors:7", "rgb", "materials"};
     static const int material_counts[VARIANTS] = {3, 3, 14};
     mtm_status status = MTM_OK;
     for (int i = 0; i < VARIANTS && status == MTM_OK; i++) {
         mtm_spectrum reflectances[14];
         make_reflectances(material_counts[i], reflectances);
-        status = create_frame(subject, bases[i], material_counts[i], reflectances, BENCH_PICTURE_EDGE,
-                              BENCH_PICTURE_EDGE, &frames[i], error);
+        status = create_frame(subject, bases[i], material_counts[i], reflectances, settings->width,
+                              settings->height, &frames[i], error);
     }
     return status;
 }
@@ -66,9 +67,9 @@ static mtm_status time_volume(const bench_settings *settings, const named_frame 
     bench_frame frames[VARIANTS] = {{.subject = NULL}};
     bench_subject subject;
     mtm_status status = describe_subject(volume, &points, settings->thread_count, &subject, error);
-    if (named->file == NULL) subject.psnr_min_db = BENCH_PSNR_RIPPLES_DB;
+    subject.options.is_preintegrated = !settings->is_post_classified;
     if (status == MTM_OK) status = prepare_subject(volume, settings->run_count, &subject, error);
-    if (status == MTM_OK) status = create_variants(&subject, frames, error);
+    if (status == MTM_OK) status = create_variants(settings, &subject, frames, error);
     if (status == MTM_OK) status = check_frames(named->name, VARIANTS, frames, error);
     if (status == MTM_OK) {
         const mtm_progress progress = start_progress(settings->bar, named->name);

@@ -105,7 +105,6 @@ static mtm_status set_up_race(const bench_settings *settings, scaling_race *race
             if (status == MTM_OK)
                 status = describe_subject(race->volumes[i], &race->transfer, settings->thread_count, subject,
                                           error);
-            subject->psnr_min_db = BENCH_PSNR_RIPPLES_DB;
             if (status == MTM_OK) status = prepare_subject(race->volumes[i], 1, subject, error);
         }
         if (status == MTM_OK) status = create_point_frame(&race->points[i], subject, &race->frames[i], error);

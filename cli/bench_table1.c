@@ -89,8 +89,7 @@ static bench_subject subject_of(const mtm_scene *scene, const mtm_volume *volume
                              .opacity_length = scene->opacity_length,
                              .camera = scene->camera,
                              .options = scene->render,
-                             .illumination = mtm_scene_illumination(scene),
-                             .psnr_min_db = BENCH_PSNR_DB};
+                             .illumination = mtm_scene_illumination(scene)};
     if (subject.opacity_length == 0)
         subject.opacity_length = mtm_grid_smallest_spacing(mtm_volume_grid(volume));
     subject.options.width = BENCH_PICTURE_EDGE;

@@ -64,7 +64,7 @@ typedef struct ray_setup {
 
 /* The loops over rays read constants from local variables: stores to a ray's numbers could else change them, and
  * compilers would not make vectors of the loops. Nor would they after unrolling them. */
-#define FOR_RAYS(i) _Pragma("GCC unroll 1") for (int i = 0; i < WIDTH; i++)
+#define FOR_RAYS _Pragma("GCC unroll 1") for (int i = 0; i < WIDTH; i++)
 
 /* Directions, in the picture as everywhere from mtm_view_ray. */
 static void aim_rays(const mtm_raycast *raycast, const mtm_lattice *lattice, int column, int row,
@@ -75,9 +75,11 @@ static void aim_rays(const mtm_raycast *raycast, const mtm_lattice *lattice, int
     const double first_x = lattice->x + column * lattice->stride + 0.5;
     const double first_y = lattice->y + row * lattice->stride + 0.5;
     const double stride = lattice->stride;
-    FOR_RAYS(i) {
-        setup->across[i] = (2 * (first_x + i % PACKET_ACROSS * stride) - width) / height * view.half_height;
-        setup->upward[i] = (1 - 2 * (first_y + i / PACKET_ACROSS * stride) / height) * view.half_height;
+    FOR_RAYS {
+        const int across = i % PACKET_ACROSS;
+        setup->across[i] = (2 * (first_x + across * stride) - width) / height * view.half_height;
+        const int down = i / PACKET_ACROSS;
+        setup->upward[i] = (1 - 2 * (first_y + down * stride) / height) * view.half_height;
     }
     const double origin_share = view.is_orthographic ? 1 : 0;
     const double direction_share = 1 - origin_share;
@@ -86,13 +88,13 @@ static void aim_rays(const mtm_raycast *raycast, const mtm_lattice *lattice, int
         const double up = view.up[axis];
         const double forward = view.forward[axis];
         const double eye = view.eye[axis] - raycast->grid_origin[axis];
-        FOR_RAYS(i) {
+        FOR_RAYS {
             const double offset = setup->across[i] * right + setup->upward[i] * up;
             setup->origin[axis][i] = eye + origin_share * offset;
             setup->direction[axis][i] = forward + direction_share * offset;
         }
     }
-    FOR_RAYS(i) {
+    FOR_RAYS {
         const double x = setup->direction[0][i];
         const double y = setup->direction[1][i];
         const double z = setup->direction[2][i];
@@ -105,7 +107,7 @@ static void aim_rays(const mtm_raycast *raycast, const mtm_lattice *lattice, int
         const double a = raycast->inverse_axes[axis][0];
         const double b = raycast->inverse_axes[axis][1];
         const double c = raycast->inverse_axes[axis][2];
-        FOR_RAYS(i) {
+        FOR_RAYS {
             setup->voxel_origin[axis][i] =
                 a * setup->origin[0][i] + b * setup->origin[1][i] + c * setup->origin[2][i];
             const double direction =
@@ -119,7 +121,7 @@ static void aim_rays(const mtm_raycast *raycast, const mtm_lattice *lattice, int
 /* Distances at which the rays enter and leave a box; the former is larger where they miss it. */
 static void intersect(const ray_setup *setup, const double low[3], const double high[3],
                       double enter[restrict WIDTH], double leave[restrict WIDTH]) {
-    FOR_RAYS(i) {
+    FOR_RAYS {
         enter[i] = -HUGE_VAL;
         leave[i] = HUGE_VAL;
     }
@@ -128,7 +130,7 @@ static void intersect(const ray_setup *setup, const double low[3], const double 
         const double *inverse = setup->inverse_direction[axis];
         const double from = low[axis];
         const double to = high[axis];
-        FOR_RAYS(i) {
+        FOR_RAYS {
             const double a = (from - origin[i]) * inverse[i];
             const double b = (to - origin[i]) * inverse[i];
             /* A ray along the box's faces is between them all the way or never. */
@@ -161,7 +163,7 @@ static void cut_rays(const mtm_raycast *raycast, ray_setup *restrict setup) {
     }
     /* A perspective ray begins in the eye; an orthographic one comes from infinitely far away. */
     const double earliest = raycast->view.is_orthographic ? -HUGE_VAL : 0;
-    FOR_RAYS(i) {
+    FOR_RAYS {
         setup->entry[i] = enter[i] > earliest ? enter[i] : earliest;
         setup->begin[i] = setup->begin[i] > setup->entry[i] ? setup->begin[i] : setup->entry[i];
         setup->end[i] = setup->end[i] < leave[i] ? setup->end[i] : leave[i];
@@ -172,7 +174,7 @@ static void jitter_rays(const mtm_raycast *raycast, const mtm_lattice *lattice, 
                         ray_setup *setup) {
     memset(setup->jitter, 0, sizeof setup->jitter);
     if (!raycast->options.jitter) return;
-    FOR_RAYS(i) {
+    FOR_RAYS {
         const uint32_t x = (uint32_t)(lattice->x + (column + i % PACKET_ACROSS) * lattice->stride);
         const uint32_t y = (uint32_t)(lattice->y + (row + i / PACKET_ACROSS) * lattice->stride);
         setup->jitter[i] = mtm_pixel_random(x, y) - 0.5;
@@ -218,7 +220,7 @@ static void widen(bounds *all, const bounds *one) {
 static void count_steps(const mtm_raycast *raycast, ray_setup *restrict setup) {
     const double inverse_step = 1 / raycast->step;
     const double spare = raycast->options.jitter ? 1 : 0; /* a jittered ray begins and ends half a step off */
-    FOR_RAYS(i) {
+    FOR_RAYS {
         const double entry = setup->entry[i];
         const bool is_hit =
             setup->begin[i] < setup->end[i] && entry * inverse_step < 1e15 && setup->end[i] < 1e300;
@@ -253,14 +255,14 @@ static void make_box(const mtm_raycast *raycast, const bounds *origins, const bo
 /* numbers of the rays that meet the volume, 0 elsewhere */
 static mtm_vector to_floats(const double is_hit[WIDTH], const double numbers[WIDTH]) {
     float floats[WIDTH];
-    FOR_RAYS(i) floats[i] = (float)(is_hit[i] > 0 ? numbers[i] : 0);
+    FOR_RAYS floats[i] = (float)(is_hit[i] > 0 ? numbers[i] : 0);
     return mtm_vector_load(floats);
 }
 
 static void bound(const double is_hit[WIDTH], const double numbers[WIDTH], int axis, bounds *range) {
     double low[WIDTH];
     double high[WIDTH];
-    FOR_RAYS(i) {
+    FOR_RAYS {
         low[i] = is_hit[i] > 0 ? numbers[i] : HUGE_VAL;
         high[i] = is_hit[i] > 0 ? numbers[i] : -HUGE_VAL;
     }
@@ -278,7 +280,7 @@ static void store_rays(const mtm_raycast *raycast, const ray_setup *setup, ray_p
     for (int axis = 0; axis < 3; axis++) {
         const double *origin = setup->voxel_origin[axis];
         const double *direction = setup->voxel_direction[axis];
-        FOR_RAYS(i) numbers[i] = origin[i] + setup->entry[i] * direction[i];
+        FOR_RAYS numbers[i] = origin[i] + setup->entry[i] * direction[i];
         packet->entry[axis] = to_floats(is_hit, numbers);
         packet->voxel_direction[axis] = to_floats(is_hit, direction);
         packet->direction[axis] = to_floats(is_hit, setup->direction[axis]);
@@ -291,11 +293,11 @@ static void store_rays(const mtm_raycast *raycast, const ray_setup *setup, ray_p
     if (raycast->packed->voxel_bytes == 0 || (raycast->options.without & MTM_WITHOUT_PREFETCH) != 0)
         packet->voxels_ahead = 0;
     make_box(raycast, &packet->origins, &packet->directions, &packet->box);
-    FOR_RAYS(i) numbers[i] = setup->begin[i] - setup->entry[i];
+    FOR_RAYS numbers[i] = setup->begin[i] - setup->entry[i];
     packet->begin = to_floats(is_hit, numbers);
-    FOR_RAYS(i) numbers[i] = setup->end[i] - setup->entry[i];
+    FOR_RAYS numbers[i] = setup->end[i] - setup->entry[i];
     packet->end = to_floats(is_hit, numbers);
-    FOR_RAYS(i) numbers[i] = setup->jitter[i] * step;
+    FOR_RAYS numbers[i] = setup->jitter[i] * step;
     packet->shift = to_floats(is_hit, numbers);
 }
 
