@@ -219,6 +219,7 @@ static void a_picture_cancelled_within_a_stage_stays_complete(void **state) {
         const mtm_status status = refine(*state, &options, 2, &heard, image, &error);
         assert_int_equal(status, MTM_CANCELLED);
         assert_int_equal(heard.stage_count, 1);
+        assert_int_equal(heard.report_count, reports); /* nothing more was begun */
         for (int y = 0; y < whole->height; y++)
             for (int x = 0; x < whole->width; x++)
                 assert_true(is_of_stride(image, whole, x, y, 2) || is_of_stride(image, whole, x, y, 1));
