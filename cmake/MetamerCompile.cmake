@@ -18,7 +18,7 @@ function(metamer_compile_options target)
     set_target_properties(${target} PROPERTIES C_EXTENSIONS OFF C_VISIBILITY_PRESET hidden)
     target_compile_definitions(${target} PRIVATE _POSIX_C_SOURCE=200809L
                                $<$<BOOL:${METAMER_ISA_LEVELS}>:METAMER_HAS_X86_64_LEVELS>)
-    # No contraction to fused operations: pictures are the same bits on every compiler and instruction set.
+    # No contraction to fused operations: the same bits from every compiler; kernels name what they want fused.
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes
                            -Wmissing-prototypes -Wpointer-arith -Wvla -Wundef -ffp-contract=off)
     if(METAMER_WARNINGS_AS_ERRORS)

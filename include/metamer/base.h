@@ -54,8 +54,8 @@ MTM_API const char *mtm_version(void);
 MTM_API int mtm_default_thread_count(void);
 
 /* The instruction set that inner loops run with: "baseline", "x86-64-v3" (AVX2) or "x86-64-v4" (AVX-512), the highest
- * that this machine has, or the lower one that the environment variable METAMER_ISA names. Results are the same bits
- * with each of them. */
+ * that this machine has, or the lower one that the environment variable METAMER_ISA names. Relit bytes are the
+ * same with each of them; projected coefficients agree to 1e-5 of full scale where rays are not terminated. */
 MTM_API const char *mtm_isa_name(void);
 
 /* Frees text that the library returned as `char *`. NULL is allowed. */

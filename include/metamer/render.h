@@ -64,8 +64,10 @@ MTM_API const char *mtm_renderer_name(int index);
 
 /* Renders with the renderer of that name into `image`, whose size and dimension are those of the options and the
  * transfer function; what it held is replaced.
- * Sample k of a ray lies (k + ½ + jitter) · step behind the ray's entry into the volume's box (or the eye inside it)
- * and stands for its step, the last one for what is left; clipping weights samples and never moves them.
+ * Step k of a ray begins (k + jitter) · step behind the ray's entry into the volume's box (or the eye inside it). It is
+ * the mean of the transfer function over the values between its ends, in two halves beyond an optical depth of 0.3;
+ * without pre-integration the sample in its middle stands for it. Clipping and the volume's end cut steps and never
+ * move them.
  * MTM_ARGUMENT for an unknown renderer, MTM_LIMIT for a step that needs more than 10⁶ samples along a ray,
  * MTM_MEMORY, MTM_CANCELLED. Sources: paper section 5, Max (TVCG 1(2), 1995), Levoy (CG&A 8(3), 1988). */
 MTM_API MTM_CHECK mtm_status mtm_render(const char *renderer, const mtm_volume *volume,
