@@ -83,6 +83,13 @@ class Bench(support.CliTest):
             self.check_ratio(row, "spectral15_per_rgb", "spectral15_raycast_ms", "rgb_raycast_ms")
             self.check_ratio(row, "project_per_relight", "spectral_raycast_ms", "postilluminate_ms")
 
+    def test_frames_of_another_size_and_classification(self):
+        words = ("bench", "--suite", "frames", "--only", "engine solid", "--runs", 1, "--size", "64x48")
+        for more in ((), ("--post-classified",)):
+            document = self.json_of(*words, *more, env=self.data)
+            self.assertEqual(document["size"], [64, 48])
+            self.check_timed(document["rows"][0])
+
     def test_one_run_does_not_scatter_and_several_may(self):
         (row,) = self.bench("frames", "engine solid")["rows"]
         for key in row:
@@ -229,7 +236,7 @@ class Bench(support.CliTest):
         for words, texts in ((["--suite", "frame"], ["frame", "frames, table1, kernels, scaling or ablation"]),
                              (["--suite"], ["--suite"]), (["frames"], ["frames"]), (["--runs", "0"], ["--runs", "0"]),
                              (["--runs", "257"], ["257"]), (["--runs", "1.5"], ["1.5"]), (["--threads", "x"], ["x"]),
-                             (["--json=yes"], ["--json"]), (["--size", "8x8"], ["--size"])):
+                             (["--json=yes"], ["--json"]), (["--size", "8"], ["--size", "8"])):
             self.refuse("bench", *words, texts=texts, status=2)
 
     def test_names_that_no_row_has(self):
