@@ -2,7 +2,8 @@
  * The raycaster over packets: 4 × (width / 4) neighboring rays at a time, one vector element each. What differs from ray
  * to ray along the way (positions, voxels, shading, transmittance) is done in vectors over the rays; the d coefficients
  * of a step are then added ray by ray, in vectors over the coefficients, so that many cost little more than three.
- * A ray's pixel does not depend on which rays share its packet, nor on the instruction set.
+ * A ray's pixel does not depend on which rays share its packet, and on the instruction set only by rounding: positions,
+ * voxels and rows of the table are the same, shading and sums may be fused.
  * Levoy, "Efficient ray tracing of volume data", ACM TOG 9(3), 1990; Wald et al., "Interactive rendering with coherent
  * ray tracing", Computer Graphics Forum 20(3), 2001 (packets); paper section 5, eqs. 5 and 6. */
 #include "render/raycast_kernel.h"

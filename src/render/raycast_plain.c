@@ -196,7 +196,7 @@ typedef struct stretch {
 
 enum { STRETCH_PARTS = 64 };
 
-/* Means over the values between two positions, from midpoints of equal parts; `limit` 0 where nothing absorbs. */
+/* Means over the values between two positions, from midpoints of equal parts. */
 static void classify(const mtm_raycast *raycast, float front, float back, stretch *mean) {
     const mtm_transfer *transfer = raycast->transfer;
     const int parts = front == back ? 1 : STRETCH_PARTS;

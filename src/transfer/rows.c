@@ -52,7 +52,7 @@ typedef struct row_sums {
     double coefficients[MTM_DIMENSION_MAX];
 } row_sums;
 
-/* Calls with every row's own values; `scale` 0 only measures how far sums reach, else they are stored. */
+/* What the transfer function holds at row i. */
 static mtm_transfer_row look_up(const mtm_transfer *transfer, double slope, double intercept,
                                 const mtm_transfer_rows *rows, int i) {
     const double value = slope * (rows->first + i * rows->spacing) + intercept;
