@@ -43,7 +43,7 @@ typedef struct mtm_render_options {
     int width, height; /* pixels */
     double step;       /* sample distance, in smallest spacings, > 0 */
     bool
-        is_preintegrated; /* a step is the mean of the transfer function over the values along it; false: its middle */
+        is_preintegrated; /* a step is the transfer function's mean over the values along it; false: its middle */
     mtm_blend blend;
     bool jitter; /* each ray's samples shifted by a fixed random part of a step: noise instead of rings */
     double termination; /* a ray ends where its transmittance falls below this; 0: never */
@@ -80,8 +80,8 @@ MTM_API MTM_CHECK mtm_status mtm_render(const char *renderer, const mtm_volume *
 typedef struct mtm_projector mtm_projector;
 
 /* Prepares the renderer of that name for the volume, which must outlive the projector. Of the options only
- * thread_count and memory_bytes are read. MTM_ARGUMENT for an unknown renderer, MTM_MEMORY, MTM_CANCELLED. Release with mtm_projector_destroy (NULL
- * allowed). */
+ * thread_count and memory_bytes are read. MTM_ARGUMENT for an unknown renderer, MTM_MEMORY, MTM_CANCELLED. Release
+ * with mtm_projector_destroy (NULL allowed). */
 MTM_API MTM_CHECK mtm_status mtm_projector_create(const char *renderer, const mtm_volume *volume,
                                                   const mtm_render_options *options,
                                                   const mtm_progress *progress, mtm_projector **projector,

@@ -323,14 +323,6 @@ MTM_INLINE mtm_vector mtm_vector_clamp(mtm_vector x, float low, float high) {
 #endif
 }
 
-MTM_INLINE mtm_vector mtm_vector_set(float value) {
-#if MTM_VECTOR_WIDTH == 16
-    return _mm512_set1_ps(value);
-#else
-    return _mm256_set1_ps(value);
-#endif
-}
-
 /* table[index % 16] */
 MTM_INLINE mtm_vector mtm_vector_lookup(const float table[16], mtm_vector_int index) {
 #if MTM_VECTOR_WIDTH == 16

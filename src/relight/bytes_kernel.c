@@ -66,15 +66,15 @@ MTM_INLINE mtm_vector_int approximate_level(mtm_vector color) {
     const mtm_vector x = mtm_vector_clamp(color, 0, 0x1.fffffep-1F);
     const mtm_vector_int bits = (mtm_vector_int)x;
     const mtm_vector m = (mtm_vector)((bits & 0x7fffff) | 0x3f800000);
-    mtm_vector power = mtm_vector_fused(m, mtm_vector_set(0.00543537317F), mtm_vector_set(-0.0514170155F));
-    power = mtm_vector_fused(power, m, mtm_vector_set(0.208567783F));
-    power = mtm_vector_fused(power, m, mtm_vector_set(-0.491730154F));
-    power = mtm_vector_fused(power, m, mtm_vector_set(0.952814877F));
-    power = mtm_vector_fused(power, m, mtm_vector_set(0.376330316F));
+    mtm_vector power = mtm_vector_fused(m, mtm_vector_all(0.00543537317F), mtm_vector_all(-0.0514170155F));
+    power = mtm_vector_fused(power, m, mtm_vector_all(0.208567783F));
+    power = mtm_vector_fused(power, m, mtm_vector_all(-0.491730154F));
+    power = mtm_vector_fused(power, m, mtm_vector_all(0.952814877F));
+    power = mtm_vector_fused(power, m, mtm_vector_all(0.376330316F));
     const mtm_vector above = mtm_vector_fused(mtm_vector_lookup(factors, bits >> 23), power,
-                                              mtm_vector_set((0.5F - 0.055F * 255) * unit + 4));
+                                              mtm_vector_all((0.5F - 0.055F * 255) * unit + 4));
     const mtm_vector below =
-        mtm_vector_fused(x, mtm_vector_set(12.92F * 255 * unit), mtm_vector_set(0.5F * unit + 4));
+        mtm_vector_fused(x, mtm_vector_all(12.92F * 255 * unit), mtm_vector_all(0.5F * unit + 4));
     return __builtin_convertvector(mtm_vector_choose(x, 0.0031308F, below, above), mtm_vector_int);
 }
 
