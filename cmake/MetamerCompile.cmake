@@ -20,7 +20,8 @@ function(metamer_compile_options target)
                                $<$<BOOL:${METAMER_ISA_LEVELS}>:METAMER_HAS_X86_64_LEVELS>)
     # No contraction to fused operations: the same bits from every compiler; kernels name what they want fused.
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes
-                           -Wmissing-prototypes -Wpointer-arith -Wvla -Wundef -ffp-contract=off)
+                           -Wmissing-prototypes -Wpointer-arith -Wvla -Wundef -ffp-contract=off
+                           -Wno-psabi) # vectors wider than the machine's are passed within a file only
     if(METAMER_WARNINGS_AS_ERRORS)
         target_compile_options(${target} PRIVATE -Werror)
     endif()
