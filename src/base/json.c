@@ -162,6 +162,13 @@ static bool is_in_range(double number, mtm_json_range range) {
     return isfinite(number) && number >= range.min && number <= range.max;
 }
 
+/* A range's end for people: 200 and not 2e+02. */
+static const char *format_end(double end, char text[MTM_NUMBER_TEXT]) {
+    if (fabs(end) >= 1e6 || end != floor(end)) return mtm_number_format(end, text);
+    (void)snprintf(text, MTM_NUMBER_TEXT, "%.0f", end);
+    return text;
+}
+
 static void fail_range(mtm_json_reader *reader, const char *key, const json_t *value, mtm_json_range range) {
     char low[MTM_NUMBER_TEXT];
     char high[MTM_NUMBER_TEXT];
@@ -169,10 +176,10 @@ static void fail_range(mtm_json_reader *reader, const char *key, const json_t *v
     if (isinf(range.min) && isinf(range.max))
         (void)snprintf(expected, sizeof expected, "a number");
     else if (isinf(range.max))
-        (void)snprintf(expected, sizeof expected, "a number, %s or more", mtm_number_format(range.min, low));
+        (void)snprintf(expected, sizeof expected, "a number, %s or more", format_end(range.min, low));
     else
-        (void)snprintf(expected, sizeof expected, "a number from %s to %s", mtm_number_format(range.min, low),
-                       mtm_number_format(range.max, high));
+        (void)snprintf(expected, sizeof expected, "a number from %s to %s", format_end(range.min, low),
+                       format_end(range.max, high));
     fail_type(reader, key, value, expected);
 }
 
@@ -273,4 +280,32 @@ bool mtm_json_choice(mtm_json_reader *reader, const json_t *object, const char *
     }
     fail_type(reader, key, value, expected);
     return false;
+}
+
+void mtm_json_expect_version(mtm_json_reader *reader, const json_t *document) {
+    double version = 1;
+    if (mtm_json_number(reader, document, "metamer", mtm_json_any, &version) && version != 1)
+        mtm_json_fail(reader, "metamer", "is version %g, this program reads version 1", version);
+}
+
+void mtm_json_each(mtm_json_reader *reader, const json_t *object, const char *key, size_t limit,
+                   void (*read)(mtm_json_reader *reader, const json_t *element, void *context),
+                   void *context) {
+    const json_t *list = optional(reader, object, key);
+    if (list == NULL) return;
+    if (!json_is_array(list)) {
+        fail_type(reader, key, list, "an array");
+        return;
+    }
+    if (json_array_size(list) > limit) {
+        mtm_json_fail(reader, key, "has %zu elements, at most %zu are allowed", json_array_size(list), limit);
+        return;
+    }
+    const size_t place = mtm_json_enter(reader, key);
+    for (size_t i = 0; i < json_array_size(list) && reader->status == MTM_OK; i++) {
+        const size_t element = mtm_json_enter_index(reader, i);
+        read(reader, json_array_get(list, i), context);
+        mtm_json_leave(reader, element);
+    }
+    mtm_json_leave(reader, place);
 }

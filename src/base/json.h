@@ -56,6 +56,15 @@ void mtm_json_leave(mtm_json_reader *reader, size_t previous);
 bool mtm_json_expect_object(mtm_json_reader *reader, const json_t *value, const char *const *keys,
                             size_t count);
 
+/* Fails where the key "metamer" is there and not 1, the version of every document. */
+void mtm_json_expect_version(mtm_json_reader *reader, const json_t *document);
+
+/* Calls `read` on each element of the array at `key`, with the reader's place there, until one fails. A missing array has
+ * no elements; one of more than `limit` is refused. */
+void mtm_json_each(mtm_json_reader *reader, const json_t *object, const char *key, size_t limit,
+                   void (*read)(mtm_json_reader *reader, const json_t *element, void *context),
+                   void *context);
+
 /* The value of a key that must be there; NULL after a failure. */
 json_t *mtm_json_required(mtm_json_reader *reader, const json_t *object, const char *key);
 

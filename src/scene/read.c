@@ -343,11 +343,9 @@ static void read_document(mtm_scene_reader *reader, const json_t *document) {
     static const char *const keys[] = {"metamer", "volume",     "palette", "transfer", "camera", "shading",
                                        "clip",    "background", "render",  "observer", "white",  "lights"};
     mtm_json_reader *json = reader->json;
-    double version = 1;
     refuse_reserved(json, document);
     if (!mtm_json_expect_object(json, document, KEYS(keys))) return;
-    if (mtm_json_number(json, document, "metamer", mtm_json_any, &version) && version != 1)
-        mtm_json_fail(json, "metamer", "is version %g, this program reads version 1", version);
+    mtm_json_expect_version(json, document);
     read_volume(reader, document);
     read_palette(reader, document);
     read_transfer(reader, document);
