@@ -58,6 +58,10 @@ MTM_API int mtm_default_thread_count(void);
  * same with each of them; projected coefficients agree to 1e-5 of full scale where rays are not terminated. */
 MTM_API const char *mtm_isa_name(void);
 
+/* Writes the text as the whole content of a file, all or nothing: the file of that name is replaced when the new one is
+ * complete. MTM_IO names the file and the reason; MTM_MEMORY. */
+MTM_API MTM_CHECK mtm_status mtm_text_write(const char *path, const char *text, mtm_error *error);
+
 /* Frees text that the library returned as `char *`. NULL is allowed. */
 MTM_API void mtm_text_free(char *text);
 

@@ -16,6 +16,10 @@
 
 enum { READ_CHUNK_BYTES = 1 << 16 };
 
+mtm_status mtm_text_write(const char *path, const char *text, mtm_error *error) {
+    return mtm_file_write(path, text, strlen(text), error);
+}
+
 bool mtm_file_exists(const char *path) {
     struct stat state;
     return stat(path, &state) == 0 && !S_ISDIR(state.st_mode);
