@@ -7,10 +7,14 @@
 #include <float.h>
 #include <math.h>
 
-static double dot(int n, const double *a, const double *b) {
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
+/* Four partial sums, in this order: an addition need not wait for the one before. */
+double mtm_dot(int n, const double *a, const double *b) {
+    double part[4] = {0, 0, 0, 0};
+    int i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (int k = 0; k < 4; k++) part[k] += a[i + k] * b[i + k];
+    for (; i < n; i++) part[0] += a[i] * b[i];
+    return (part[0] + part[1]) + (part[2] + part[3]);
 }
 
 bool mtm_cholesky_factor(int n, int stride, double *matrix) {
@@ -19,9 +23,9 @@ bool mtm_cholesky_factor(int n, int stride, double *matrix) {
         double *row = matrix + (size_t)i * (size_t)stride;
         for (int j = 0; j < i; j++) {
             const double *above = matrix + (size_t)j * (size_t)stride;
-            row[j] = (row[j] - dot(j, row, above)) / above[j];
+            row[j] = (row[j] - mtm_dot(j, row, above)) / above[j];
         }
-        const double pivot = row[i] - dot(i, row, row);
+        const double pivot = row[i] - mtm_dot(i, row, row);
         if (!(pivot > n * DBL_EPSILON * fabs(row[i]))) return false;
         row[i] = sqrt(pivot);
     }
@@ -31,7 +35,7 @@ bool mtm_cholesky_factor(int n, int stride, double *matrix) {
 void mtm_cholesky_solve(int n, int stride, const double *factor, double *b) {
     for (int i = 0; i < n; i++) {
         const double *row = factor + (size_t)i * (size_t)stride;
-        b[i] = (b[i] - dot(i, row, b)) / row[i];
+        b[i] = (b[i] - mtm_dot(i, row, b)) / row[i];
     }
     for (int i = n - 1; i >= 0; i--) {
         const double *row = factor + (size_t)i * (size_t)stride;

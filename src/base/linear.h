@@ -5,6 +5,9 @@
 
 #include "metamer/base.h"
 
+/* Σ a[i]·b[i]. */
+double mtm_dot(int n, const double *a, const double *b);
+
 /* Replaces the lower triangle (diagonal included) of the symmetric n×n `matrix`, row by row, `stride` ≥ n doubles
  * from row to row, by its Cholesky factor L, matrix = L·Lᵀ; what lies above the diagonal is neither read nor
  * written. False where a pivot is not above n·2⁻⁵² times its diagonal entry: not positive definite in double. */
