@@ -65,12 +65,22 @@ MTM_API double mtm_srgb_decode(double encoded);
 /* Linear sRGB of "#rrggbb". MTM_ARGUMENT names the text and the form expected. */
 MTM_API MTM_CHECK mtm_status mtm_rgb_parse(const char *hex, mtm_rgb *linear, mtm_error *error);
 
+/* "#rrggbb" of linear sRGB, clipped. */
+MTM_API void mtm_rgb_format(mtm_rgb linear, char hex[8]);
+
 /* XYZ of sRGB's white D65 (x = 0.3127, y = 0.3290, Y = 1), the white that pictures are judged against. */
 MTM_API mtm_xyz mtm_white_d65(void);
 
 /* CIELAB relative to a white with y > 0, exact 6/29 constants (CIE 015). Where the white's x or z is 0, the color's
  * ratio to it counts as that of y, so that white is (100, 0, 0). */
 MTM_API mtm_lab mtm_lab_from_xyz(mtm_xyz xyz, mtm_xyz white);
+
+/* Its inverse, for a white whose x, y and z are all above 0; colors that no light has may come out negative. */
+MTM_API mtm_xyz mtm_xyz_from_lab(mtm_lab lab, mtm_xyz white);
+
+/* A linear color as a display shows it: each channel within 0..1. And its CIELAB against D65. */
+MTM_API mtm_rgb mtm_rgb_clip(mtm_rgb linear);
+MTM_API mtm_lab mtm_lab_shown(mtm_rgb linear);
 
 /* CIEDE2000 with kL = kC = kH = 1 (Sharma, Wu, Dalal, Color Res. Appl. 30, 2005). */
 MTM_API double mtm_ciede2000(mtm_lab a, mtm_lab b);
@@ -115,6 +125,27 @@ typedef struct mtm_color_rendering_result {
  * where the light has no color temperature, or one above 25000 K, for which the CIE defines no daylight; MTM_MEMORY. */
 MTM_API MTM_CHECK mtm_status mtm_color_rendering(const mtm_spectrum *light,
                                                  mtm_color_rendering_result *result, mtm_error *error);
+
+/* Eyes whose color vision is normal, or in which one kind of cone is weak or missing: that for long wavelengths (protan),
+ * middle ones (deutan, the most common) or short ones (tritan, rare). */
+typedef enum mtm_vision {
+    MTM_VISION_NORMAL,
+    MTM_VISION_PROTAN,
+    MTM_VISION_DEUTAN,
+    MTM_VISION_TRITAN,
+    MTM_VISION_COUNT,
+} mtm_vision;
+
+/* "normal", "protan", "deutan", "tritan". */
+MTM_API const char *mtm_vision_name(mtm_vision vision);
+
+/* The 3×3 matrix, row by row, from a linear sRGB color to one that looks the same to normal eyes as the first does to
+ * these: `severity` is 0 (normal) … 1 (the cones are missing), linear between tenths (Machado, Oliveira, Fernandes, IEEE TVCG
+ * 15(6), 2009). Grays stay as they are, to 3e-6. */
+MTM_API void mtm_vision_matrix(mtm_vision vision, double severity, double matrix[3][3]);
+
+/* The matrix times a color; not clipped, and saturated colors do leave 0..1. */
+MTM_API mtm_rgb mtm_vision_see(mtm_vision vision, double severity, mtm_rgb linear);
 
 #ifdef __cplusplus
 }

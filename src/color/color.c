@@ -85,6 +85,18 @@ mtm_status mtm_rgb_parse(const char *hex, mtm_rgb *linear, mtm_error *error) {
     return MTM_OK;
 }
 
+void mtm_rgb_format(mtm_rgb linear, char hex[8]) {
+    static const char digits[] = "0123456789abcdef";
+    const double channels[3] = {linear.r, linear.g, linear.b};
+    hex[0] = '#';
+    for (int c = 0; c < 3; c++) {
+        const int level = (int)lround(255 * mtm_srgb_encode(channels[c]));
+        hex[1 + 2 * c] = digits[level / 16];
+        hex[2 + 2 * c] = digits[level % 16];
+    }
+    hex[7] = '\0';
+}
+
 mtm_xyz mtm_white_d65(void) {
     const double x = 0.3127;
     const double y = 0.3290;
@@ -111,6 +123,31 @@ mtm_lab mtm_lab_from_xyz(mtm_xyz xyz, mtm_xyz white) {
     const double y = lab_curve(luminance_ratio);
     const double z = lab_curve(ratio_to_white(xyz.z, white.z, luminance_ratio));
     return (mtm_lab){116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+/* Inverse of lab_curve. */
+static double lab_curve_inverse(double value) {
+    const double delta = 6.0 / 29;
+    return value > delta ? value * value * value : 3 * delta * delta * (value - 4.0 / 29);
+}
+
+mtm_xyz mtm_xyz_from_lab(mtm_lab lab, mtm_xyz white) {
+    assert(white.x > 0 && white.y > 0 && white.z > 0);
+    const double y = (lab.l + 16) / 116;
+    return (mtm_xyz){white.x * lab_curve_inverse(y + lab.a / 500), white.y * lab_curve_inverse(y),
+                     white.z * lab_curve_inverse(y - lab.b / 200)};
+}
+
+static double clip(double value) {
+    return value > 0 ? fmin(value, 1) : 0;
+}
+
+mtm_rgb mtm_rgb_clip(mtm_rgb linear) {
+    return (mtm_rgb){clip(linear.r), clip(linear.g), clip(linear.b)};
+}
+
+mtm_lab mtm_lab_shown(mtm_rgb linear) {
+    return mtm_lab_from_xyz(mtm_xyz_from_rgb(mtm_rgb_clip(linear)), mtm_white_d65());
 }
 
 /* The responses of Bradford's cones, or x, y, z themselves, to a white. */

@@ -1,19 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * How far a scene's basis can be trusted: its materials one by one against full spectra. Designed spectra are steep, and
  * what merges under a light by full spectra may part in a few coefficients. */
-#include <math.h>
 #include <string.h>
 
 #include "scene/scene.h"
-
-static double clip(double value) {
-    return value > 0 ? fmin(value, 1) : 0;
-}
-
-static mtm_lab picture_lab(mtm_rgb color) {
-    const mtm_rgb shown = {clip(color.r), clip(color.g), clip(color.b)};
-    return mtm_lab_from_xyz(mtm_xyz_from_rgb(shown), mtm_white_d65());
-}
 
 static mtm_rgb color_of(const mtm_basis *basis, const double *matrix, int material) {
     float in_lanes[MTM_DIMENSION_MAX];
@@ -35,7 +25,8 @@ static mtm_status compare_light(const mtm_scene *scene, const mtm_basis *basis, 
     const mtm_status status = mtm_basis_matrix(basis, &illumination, matrix, error);
     for (int i = 0; i < scene->palette.material_count && status == MTM_OK; i++) {
         const mtm_rgb truth = mtm_illuminate(&illumination, &scene->palette.materials[i].reflectance);
-        const double difference = mtm_ciede2000(picture_lab(color_of(basis, matrix, i)), picture_lab(truth));
+        const double difference =
+            mtm_ciede2000(mtm_lab_shown(color_of(basis, matrix, i)), mtm_lab_shown(truth));
         if (difference > largest->ciede2000) *largest = (mtm_basis_error){difference, i, light};
     }
     return status;

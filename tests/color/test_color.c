@@ -99,6 +99,16 @@ static void white_is_lab_100_0_0_and_black_0_0_0(void **state) {
 }
 
 /* Both branches of CIELAB meet at (6/29)³ with value and slope; below, L* is 903.3 Y. */
+static void colors_a_display_cannot_show_are_clipped(void **state) {
+    (void)state;
+    const mtm_rgb clipped = mtm_rgb_clip((mtm_rgb){-0.2, 0.5, 1.7});
+    assert_true(clipped.r == 0 && clipped.g == 0.5 && clipped.b == 1);
+    const mtm_lab shown = mtm_lab_shown((mtm_rgb){-0.2, 0.5, 1.7});
+    const mtm_lab expected = mtm_lab_from_xyz(mtm_xyz_from_rgb(clipped), mtm_white_d65());
+    assert_true(shown.l == expected.l && shown.a == expected.a && shown.b == expected.b);
+    assert_float_equal(mtm_lab_shown((mtm_rgb){9, 9, 9}).l, 100, 1e-2);
+}
+
 static void lab_is_smooth_where_its_branches_meet(void **state) {
     (void)state;
     const mtm_xyz white = mtm_white_d65();
@@ -110,6 +120,21 @@ static void lab_is_smooth_where_its_branches_meet(void **state) {
     assert_float_equal(middle, 8, 1e-12);
     assert_float_equal((above - middle) / step, (middle - below) / step, 0.2);
     assert_float_equal(mtm_lab_from_xyz((mtm_xyz){0, 0.001, 0}, white).l, 0.001 * 24389 / 27, 1e-12);
+}
+
+static void lab_and_xyz_are_inverse_on_both_branches(void **state) {
+    (void)state;
+    static const double values[] = {0, 1e-5, 0.003, 0.008, 0.01, 0.2, 0.9, 1.3};
+    enum { COUNT = sizeof values / sizeof *values };
+    const mtm_xyz white = mtm_white_d65();
+    for (int i = 0; i < COUNT * COUNT * COUNT; i++) {
+        const mtm_xyz xyz = {values[i % COUNT], values[i / COUNT % COUNT], values[i / COUNT / COUNT]};
+        const mtm_xyz back = mtm_xyz_from_lab(mtm_lab_from_xyz(xyz, white), white);
+        /* cmocka compares in float, these are to agree in double */
+        assert_true(fabs(back.x - xyz.x) < 1e-14 && fabs(back.y - xyz.y) < 1e-14 &&
+                    fabs(back.z - xyz.z) < 1e-14);
+    }
+    assert_true(mtm_xyz_from_lab((mtm_lab){20, 0, 90}, white).z < 0);
 }
 
 static void lab_under_a_light_without_blue_is_finite(void **state) {
@@ -189,7 +214,9 @@ int main(void) {
         cmocka_unit_test(hexadecimal_colors_are_read),
         cmocka_unit_test(other_forms_of_colors_are_refused),
         cmocka_unit_test(white_is_lab_100_0_0_and_black_0_0_0),
+        cmocka_unit_test(colors_a_display_cannot_show_are_clipped),
         cmocka_unit_test(lab_is_smooth_where_its_branches_meet),
+        cmocka_unit_test(lab_and_xyz_are_inverse_on_both_branches),
         cmocka_unit_test(lab_under_a_light_without_blue_is_finite),
         cmocka_unit_test(bradford_maps_white_to_white),
         cmocka_unit_test(adaptation_from_lines_is_bounded),
