@@ -112,28 +112,6 @@ static int find_source(mtm_json_reader *reader, const json_t *object) {
     return found;
 }
 
-static void read_spectrum(mtm_json_reader *reader, const json_t *object, const char *folder,
-                          mtm_spectrum_kind kind, mtm_spectrum *spectrum) {
-    const int source = find_source(reader, object);
-    if (source < 0) return;
-    if (kind == MTM_KIND_REFLECTANCE && !sources[source].is_for_materials) {
-        mtm_json_fail(reader, sources[source].key, "is a light's spectrum, a material needs a reflectance");
-        return;
-    }
-    const spectrum_request request = {reader, object, sources[source].key, folder, kind};
-    sources[source].make(&request, spectrum);
-}
-
-static void read_name(mtm_json_reader *reader, const json_t *object, char name[MTM_NAME_MAX + 1]) {
-    const char *text = NULL;
-    if (mtm_json_required(reader, object, "name") == NULL) return;
-    if (!mtm_json_text(reader, object, "name", &text)) return;
-    if (strlen(text) > MTM_NAME_MAX)
-        mtm_json_fail(reader, "name", "has %zu bytes, at most %d are allowed", strlen(text), MTM_NAME_MAX);
-    else
-        (void)snprintf(name, MTM_NAME_MAX + 1, "%s", text);
-}
-
 /* Artificial reflectances may leave 0..1, but not what a float pixel can hold. */
 static void check_reflectance(mtm_json_reader *reader, const mtm_spectrum *reflectance) {
     static const double largest = 1e6;
@@ -144,20 +122,77 @@ static void check_reflectance(mtm_json_reader *reader, const mtm_spectrum *refle
                           largest);
 }
 
-static void read_material(mtm_json_reader *reader, const json_t *object, const char *folder,
-                          mtm_palette *palette) {
+static void check_light(mtm_json_reader *reader, const mtm_spectrum *emission) {
+    mtm_observer observer;
+    mtm_spectrum normalized;
+    mtm_error reason;
+    if (reader->status != MTM_OK) return;
+    if (mtm_observer_get("cie1931", &observer, &reason) != MTM_OK ||
+        mtm_light_normalize(emission, &observer, &normalized, &reason) != MTM_OK)
+        mtm_json_fail(reader, NULL, "is no usable light: %s", reason.message);
+}
+
+const char *mtm_palette_source_of(const json_t *object) {
+    for (int i = 0; i < SOURCE_COUNT; i++)
+        if (json_object_get(object, sources[i].key) != NULL) return sources[i].key;
+    return NULL;
+}
+
+void mtm_palette_read_source(mtm_json_reader *reader, const json_t *object, const char *folder,
+                             mtm_spectrum_kind kind, mtm_spectrum *spectrum) {
+    const int source = reader->status == MTM_OK ? find_source(reader, object) : -1;
+    if (source < 0) return;
+    if (kind == MTM_KIND_REFLECTANCE && !sources[source].is_for_materials) {
+        mtm_json_fail(reader, sources[source].key, "is a light's spectrum, a material needs a reflectance");
+        return;
+    }
+    const spectrum_request request = {reader, object, sources[source].key, folder, kind};
+    sources[source].make(&request, spectrum);
+    if (kind == MTM_KIND_REFLECTANCE)
+        check_reflectance(reader, spectrum);
+    else
+        check_light(reader, spectrum);
+}
+
+void mtm_palette_check_name(mtm_json_reader *reader, const char *key, const char *text,
+                            char name[MTM_NAME_MAX + 1]) {
+    if (strlen(text) > MTM_NAME_MAX)
+        mtm_json_fail(reader, key, "has %zu bytes, at most %d are allowed", strlen(text), MTM_NAME_MAX);
+    else
+        (void)snprintf(name, MTM_NAME_MAX + 1, "%s", text);
+}
+
+void mtm_palette_read_name(mtm_json_reader *reader, const json_t *object, char name[MTM_NAME_MAX + 1]) {
+    const char *text = NULL;
+    if (mtm_json_required(reader, object, "name") == NULL) return;
+    if (mtm_json_text(reader, object, "name", &text)) mtm_palette_check_name(reader, "name", text, name);
+}
+
+void mtm_palette_add_material(mtm_json_reader *reader, const mtm_material *material, mtm_palette *palette) {
+    if (reader->status != MTM_OK) return;
+    if (mtm_palette_find_material(palette, material->name) >= 0)
+        mtm_json_fail(reader, "name", "\"%s\" is the name of an earlier material, too", material->name);
+    else
+        palette->materials[palette->material_count++] = *material;
+}
+
+void mtm_palette_add_light(mtm_json_reader *reader, const mtm_light *light, mtm_palette *palette) {
+    if (reader->status != MTM_OK) return;
+    if (mtm_palette_find_light(palette, light->name) >= 0)
+        mtm_json_fail(reader, "name", "\"%s\" is the name of an earlier light, too", light->name);
+    else
+        palette->lights[palette->light_count++] = *light;
+}
+
+void mtm_palette_read_material(mtm_json_reader *reader, const json_t *object, const char *folder,
+                               mtm_palette *palette) {
     static const char *const keys[] = {"name",       "spectrum",  "srgb",    "values",
                                        "illuminant", "blackbody", "daylight"};
     mtm_material material = {0};
     if (!mtm_json_expect_object(reader, object, keys, sizeof keys / sizeof *keys)) return;
-    read_name(reader, object, material.name);
-    read_spectrum(reader, object, folder, MTM_KIND_REFLECTANCE, &material.reflectance);
-    check_reflectance(reader, &material.reflectance);
-    if (reader->status != MTM_OK) return;
-    if (mtm_palette_find_material(palette, material.name) >= 0)
-        mtm_json_fail(reader, "name", "\"%s\" is the name of an earlier material, too", material.name);
-    else
-        palette->materials[palette->material_count++] = material;
+    mtm_palette_read_name(reader, object, material.name);
+    mtm_palette_read_source(reader, object, folder, MTM_KIND_REFLECTANCE, &material.reflectance);
+    mtm_palette_add_material(reader, &material, palette);
 }
 
 /* "through": the light passes materials as filters, wavelength by wavelength. */
@@ -187,62 +222,49 @@ static void apply_filters(mtm_json_reader *reader, const json_t *object, const m
     }
 }
 
-static void read_light(mtm_json_reader *reader, const json_t *object, const char *folder,
-                       mtm_palette *palette) {
+void mtm_palette_read_light(mtm_json_reader *reader, const json_t *object, const char *folder,
+                            mtm_palette *palette) {
     static const char *const keys[] = {"name",     "spectrum", "illuminant", "blackbody",
                                        "daylight", "srgb",     "values",     "through"};
     mtm_light light = {0};
-    mtm_observer observer;
-    mtm_spectrum normalized;
-    mtm_error reason;
     if (!mtm_json_expect_object(reader, object, keys, sizeof keys / sizeof *keys)) return;
-    read_name(reader, object, light.name);
-    read_spectrum(reader, object, folder, MTM_KIND_LIGHT, &light.emission);
+    mtm_palette_read_name(reader, object, light.name);
+    mtm_palette_read_source(reader, object, folder, MTM_KIND_LIGHT, &light.emission);
     apply_filters(reader, object, palette, &light.emission);
-    if (reader->status != MTM_OK) return;
-    if (mtm_palette_find_light(palette, light.name) >= 0)
-        mtm_json_fail(reader, "name", "\"%s\" is the name of an earlier light, too", light.name);
-    else if (mtm_observer_get("cie1931", &observer, &reason) != MTM_OK ||
-             mtm_light_normalize(&light.emission, &observer, &normalized, &reason) != MTM_OK)
-        mtm_json_fail(reader, NULL, "is no usable light: %s", reason.message);
-    else
-        palette->lights[palette->light_count++] = light;
+    check_light(reader, &light.emission); /* the filters may have left nothing */
+    mtm_palette_add_light(reader, &light, palette);
 }
 
-/* Checks the array's size and calls `read` on every element. */
-static void read_list(mtm_json_reader *reader, const json_t *object, const char *key, size_t limit,
-                      const char *folder, mtm_palette *palette,
-                      void (*read)(mtm_json_reader *, const json_t *, const char *, mtm_palette *)) {
-    const json_t *list = json_object_get(object, key);
-    if (list == NULL) return;
-    if (!json_is_array(list)) {
-        mtm_json_fail(reader, key, "must be an array");
-        return;
-    }
-    if (json_array_size(list) > limit) {
-        mtm_json_fail(reader, key, "has %zu elements, at most %zu are allowed", json_array_size(list), limit);
-        return;
-    }
-    const size_t place = mtm_json_enter(reader, key);
-    for (size_t i = 0; i < json_array_size(list) && reader->status == MTM_OK; i++) {
-        const size_t element = mtm_json_enter_index(reader, i);
-        read(reader, json_array_get(list, i), folder, palette);
-        mtm_json_leave(reader, element);
-    }
-    mtm_json_leave(reader, place);
+typedef struct list_context {
+    const char *folder;
+    mtm_palette *palette;
+} list_context;
+
+static void read_material(mtm_json_reader *reader, const json_t *object, void *context) {
+    const list_context *list = context;
+    mtm_palette_read_material(reader, object, list->folder, list->palette);
+}
+
+static void read_light(mtm_json_reader *reader, const json_t *object, void *context) {
+    const list_context *list = context;
+    mtm_palette_read_light(reader, object, list->folder, list->palette);
+}
+
+bool mtm_palette_reserve(mtm_json_reader *reader, mtm_palette *palette) {
+    *palette = (mtm_palette){.materials = mtm_allocate(MTM_MATERIALS_MAX, sizeof *palette->materials),
+                             .lights = mtm_allocate(MTM_LIGHTS_MAX, sizeof *palette->lights)};
+    if (palette->materials != NULL && palette->lights != NULL) return true;
+    mtm_palette_free(palette);
+    reader->status = mtm_fail_memory(reader->error, "a palette", MTM_LIGHTS_MAX * sizeof *palette->lights);
+    return false;
 }
 
 void mtm_palette_from_json(mtm_json_reader *reader, const json_t *object, const char *folder,
                            mtm_palette *palette) {
-    *palette = (mtm_palette){.materials = mtm_allocate(MTM_MATERIALS_MAX, sizeof *palette->materials),
-                             .lights = mtm_allocate(MTM_LIGHTS_MAX, sizeof *palette->lights)};
-    if (palette->materials == NULL || palette->lights == NULL)
-        reader->status =
-            mtm_fail_memory(reader->error, "a palette", MTM_LIGHTS_MAX * sizeof *palette->lights);
-    if (reader->status == MTM_OK)
-        read_list(reader, object, "materials", MTM_MATERIALS_MAX, folder, palette, read_material);
-    if (reader->status == MTM_OK)
-        read_list(reader, object, "lights", MTM_LIGHTS_MAX, folder, palette, read_light);
+    list_context context = {folder, palette};
+    if (!mtm_palette_reserve(reader, palette)) return;
+    mtm_json_each(reader, object, "materials", MTM_MATERIALS_MAX, read_material, &context);
+    mtm_json_each(reader, object, "lights", MTM_LIGHTS_MAX, read_light, &context);
     if (reader->status != MTM_OK) mtm_palette_free(palette);
 }
 
@@ -254,10 +276,8 @@ mtm_status mtm_palette_parse(const char *document, const char *text, const char 
     const mtm_status status = mtm_json_parse(document, text, strlen(text), &object, error);
     if (status != MTM_OK) return status;
     mtm_json_reader reader = mtm_json_begin(document, error);
-    double version = 1;
-    if (mtm_json_expect_object(&reader, object, keys, sizeof keys / sizeof *keys) &&
-        mtm_json_number(&reader, object, "metamer", mtm_json_any, &version) && version != 1)
-        mtm_json_fail(&reader, "metamer", "is version %g, this program reads version 1", version);
+    if (mtm_json_expect_object(&reader, object, keys, sizeof keys / sizeof *keys))
+        mtm_json_expect_version(&reader, object);
     if (reader.status == MTM_OK) mtm_palette_from_json(&reader, object, folder, palette);
     json_decref(object);
     return reader.status;
