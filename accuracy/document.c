@@ -142,19 +142,21 @@ static void print_filters(FILE *stream, const measurements *made) {
 
 static void print_engine(FILE *stream, const measurements *made) {
     const engine_errors *engine = &made->engine;
-    (void)fprintf(stream,
-                  "## A picture\n"
-                  "The scene [examples/engine](../examples/engine/engine.json), %d × %d pixels,\n"
-                  "rendered in each basis and relit with its three lights, FL11 and LED-B3; against\n"
-                  "`wavelengths`, over the %d pixels that hold anything. `rgb` is relit as a plain\n"
-                  "renderer would: its colors under D65, times the light's. The first palette is the\n"
-                  "scene's own, designed so that its parts merge and vanish: one of its spectra jumps\n"
-                  "from 2 to 95 %% within 5 nm, and one of its lights is dark above 650 nm. Seven\n"
-                  "smooth curves cannot hold that, and `auto` takes `materials` for it, which does. The\n"
-                  "other palettes are measured: patches of the ColorChecker that no basis was fitted\n"
-                  "to. Over these, `factors:7` has the mean %.2f.\n\n"
-                  "All five lights, mean / 95 %%:\n\n",
-                  engine->edge, engine->edge, engine->pixel_count, engine->measured[ENGINE_FACTORS_7].mean);
+    (void)fprintf(
+        stream,
+        "## A picture\n"
+        "The scene [examples/engine](../examples/engine/engine.json), %d × %d pixels,\n"
+        "rendered in each basis and relit with its three lights, FL11 and LED-B3; against\n"
+        "`wavelengths`, over the %d pixels that hold anything. `rgb` is relit as a plain\n"
+        "renderer would: its colors under D65, times the light's. The first palette is the\n"
+        "scene's own, designed so that its parts merge and vanish, and that their colors are right\n"
+        "in `factors:7` under its own three lights, too. Under lights that it was not designed for,\n"
+        "seven smooth curves do not follow its steep spectra, and `auto` takes `materials` for it,\n"
+        "which does. Its lights are narrow, and hard on the other palettes as well, which are\n"
+        "measured: patches of the ColorChecker that no basis was fitted to. Over these,\n"
+        "`factors:7` has the mean %.2f.\n\n"
+        "All five lights, mean / 95 %%:\n\n",
+        engine->edge, engine->edge, engine->pixel_count, engine->measured[ENGINE_FACTORS_7].mean);
     print_engine_table(stream, made);
     (void)fprintf(stream, "`factors:7`, light by light, mean / 95 %% / max:\n\n");
     print_engine_light_table(stream, made);

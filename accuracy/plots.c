@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "drawing/svg.h"
 #include "fail.h"
 #include "output.h"
-#include "svg.h"
 
 /* From short to long waves; told apart on white by light and dark as well. */
 static const char *const curve_colors[MODEL_DIMENSION_MAX] = {
@@ -46,23 +46,6 @@ static mtm_status read_curves(const char *name, basis_curves *curves, mtm_error 
     return status;
 }
 
-/* A step of 1, 2 or 5 times a power of ten with about five of them from end to end; ticks at its multiples, the ends
- * moved outward to the next. */
-enum { TICKS_MAX = 12 };
-static void fit_axis(double low, double high, svg_axis *axis, double ticks[TICKS_MAX]) {
-    const double rough = (high - low) / 5;
-    const double power = pow(10, floor(log10(rough)));
-    const double ratio = rough / power;
-    const double step = power * (ratio < 1.5 ? 1 : ratio < 3.5 ? 2 : ratio < 7.5 ? 5 : 10);
-    const int first = (int)floor(low / step + 1e-9);
-    const int last = (int)ceil(high / step - 1e-9);
-    axis->low = first * step;
-    axis->high = last * step;
-    axis->ticks = ticks;
-    for (int i = first; i <= last && axis->tick_count < TICKS_MAX; i++)
-        ticks[axis->tick_count++] = i == 0 ? 0 : i * step;
-}
-
 /* Within 400 … 700 nm, so that its label is clear of the frame. */
 static int find_peak(const double curve[MTM_SPECTRUM_SAMPLES]) {
     enum { FIRST = 4, LAST = 64 };
@@ -76,7 +59,7 @@ static int find_peak(const double curve[MTM_SPECTRUM_SAMPLES]) {
 static void draw_curves(FILE *stream, svg_panel *panel, int count, double curves[][MTM_SPECTRUM_SAMPLES]) {
     static const double wavelength_ticks[] = {400, 450, 500, 550, 600, 650, 700, 750};
     double wavelengths[MTM_SPECTRUM_SAMPLES];
-    double ticks[TICKS_MAX];
+    double ticks[SVG_TICKS_MAX];
     double low = 0;
     double high = 0;
     for (int k = 0; k < MTM_SPECTRUM_SAMPLES; k++) {
@@ -89,7 +72,7 @@ static void draw_curves(FILE *stream, svg_panel *panel, int count, double curves
     panel->x =
         (svg_axis){"wavelength (nm)", 380, 780, false, sizeof wavelength_ticks / sizeof *wavelength_ticks,
                    wavelength_ticks};
-    fit_axis(low, high * 1.08, &panel->y, ticks);
+    svg_fit_axis(low, high * 1.08, &panel->y, ticks);
     svg_draw_panel(stream, panel);
     for (int i = 0; i < count; i++)
         svg_draw_curve(stream, panel, MTM_SPECTRUM_SAMPLES, wavelengths, curves[i],
@@ -130,7 +113,7 @@ static mtm_status draw_basis(const char *folder, const char *name, const char *b
                                 .width = 370,
                                 .height = 230,
                                 .y = {.title = "spectrum of coefficient 1"}};
-    svg_begin(file.stream, 900, 312, title);
+    svg_begin(file.stream, 900, 312, title, NULL);
     draw_curves(file.stream, &encoding, curves.dimension, curves.encoder);
     draw_curves(file.stream, &reconstruction, curves.dimension, curves.columns);
     svg_end(file.stream);
@@ -194,7 +177,7 @@ static mtm_status draw_all_errors(const measurements *made, const char *folder, 
     svg_panel three = {
         .title = "on three, exposure-matched", .left = 562, .top = 30, .width = 280, .height = 290};
     svg_begin(file.stream, 1010, 372,
-              "Mean color error of products by dimension, for factors and other models");
+              "Mean color error of products by dimension, for factors and other models", NULL);
     draw_errors(file.stream, made, &one, false);
     draw_errors(file.stream, made, &three, true);
     svg_end(file.stream);

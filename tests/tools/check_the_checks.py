@@ -57,6 +57,12 @@ class CheckLayers(unittest.TestCase):
         for folder in ("cli", "server", "bench", "accuracy", "examples"):
             self.refuse({f"{folder}/a.c": '#include "base/fail.h"\n'}, "is neither a public header")
 
+    def test_programs_share_what_includes_nothing_else(self):
+        self.assertEqual(self.check({"cli/a.c": '#include "drawing/svg.h"\n', "drawing/svg.h": "",
+                                     "drawing/svg.c": '#include "svg.h"\n'}), (0, ""))
+        self.refuse({"drawing/svg.c": '#include "metamer/color.h"\n'}, "is no header of this folder")
+        self.refuse({"src/color/a.c": '#include "drawing/svg.h"\n'}, "is no header of a stage")
+
     def test_a_folder_that_is_no_stage_is_found(self):
         self.refuse({"src/misc/a.c": ""}, "is in no stage")
 

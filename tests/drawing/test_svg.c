@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * Where plots put things. */
-#include "accuracy/svg.h"
+#include "drawing/svg.h"
+#include <stdlib.h>
+#include <string.h>
+
 #include "test.h"
 
 static const svg_panel panel = {.left = 100,
@@ -42,12 +45,59 @@ static void labels_stay_in_their_range(void **state) {
     assert_true(heights[1] - heights[0] > 9.9 && heights[0] - heights[2] > 9.9);
 }
 
+static void check_escaped(const char *text, const char *expected) {
+    char *escaped = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&escaped, &size);
+    assert_non_null(stream);
+    svg_escape(stream, text);
+    assert_int_equal(fclose(stream), 0);
+    assert_string_equal(escaped, expected);
+    free(escaped);
+}
+
+static void text_becomes_text_of_xml(void **state) {
+    (void)state;
+    check_escaped("a < b & c > \"d\"", "a &lt; b &amp; c &gt; \"d\"");
+    check_escaped("gr\xc3\xbcn \xe3\x83\xa9 \xf0\x9f\x92\xa1", "gr\xc3\xbcn \xe3\x83\xa9 \xf0\x9f\x92\xa1");
+    check_escaped("\x01\t\xef\xbf\xbf", "\xef\xbf\xbd\t\xef\xbf\xbd");
+    check_escaped("\xc3", "\xef\xbf\xbd");
+}
+
+static void text_is_shortened_between_characters(void **state) {
+    (void)state;
+    char text[32];
+    svg_shorten("short", 10, 100, sizeof text, text);
+    assert_string_equal(text, "short");
+    svg_shorten("aaaaaaaaaaaaaaaaaaaa", 10, 50, sizeof text, text);
+    assert_true(svg_text_width(text, 10) <= 50);
+    assert_string_equal(text + strspn(text, "a"), "\xe2\x80\xa6");
+    svg_shorten("\xc3\xbc\xc3\xbc\xc3\xbc\xc3\xbc", 10, 1000, 7, text);
+    assert_string_equal(text, "\xc3\xbc\xe2\x80\xa6");
+    svg_shorten("wide", 10, 1, sizeof text, text);
+    assert_string_equal(text, "\xe2\x80\xa6");
+}
+
+static void axes_end_at_ticks(void **state) {
+    (void)state;
+    double ticks[SVG_TICKS_MAX];
+    svg_axis axis = {.tick_count = 0};
+    svg_fit_axis(-0.1, 1.3, &axis, ticks);
+    assert_float_equal(axis.low, -0.2, 1e-12);
+    assert_float_equal(axis.high, 1.4, 1e-12);
+    assert_int_equal(axis.tick_count, 9);
+    assert_true(ticks[1] == 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_placed_along_the_axes),
         cmocka_unit_test(values_outside_stay_in_the_panel),
         cmocka_unit_test(labels_are_moved_apart_in_their_order),
         cmocka_unit_test(labels_stay_in_their_range),
+        cmocka_unit_test(text_becomes_text_of_xml),
+        cmocka_unit_test(text_is_shortened_between_characters),
+        cmocka_unit_test(axes_end_at_ticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
