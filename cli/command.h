@@ -24,7 +24,7 @@ typedef struct subcommand {
 } subcommand;
 
 extern const subcommand render_command, relight_command, info_command, compare_command, convert_command,
-    color_command, bench_command;
+    color_command, design_command, bench_command;
 
 /* Walks the arguments of a subcommand. */
 typedef struct argument_walk {

@@ -10,7 +10,7 @@
 
 static const subcommand *const commands[] = {&render_command,  &relight_command, &info_command,
                                              &compare_command, &convert_command, &color_command,
-                                             &bench_command};
+                                             &design_command,  &bench_command};
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 
 static void print_overview(FILE *stream) {
