@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "analysis.h"
 #include "document.h"
 #include "task.h"
 
@@ -74,8 +75,9 @@ static json_t *describe_palette(const mtm_palette *palette, const mtm_observer *
     json_t *lights = json_array();
     for (int i = 0; i < palette->light_count; i++)
         (void)json_array_append_new(lights, json_string(palette->lights[i].name));
-    return json_pack("{s:s, s:o, s:o}", "kind", "palette", "materials", describe_materials(palette, &who),
-                     "lights", lights);
+    return json_pack("{s:s, s:o, s:o, s:o}", "kind", "palette", "materials",
+                     describe_materials(palette, &who), "lights", lights, "analysis",
+                     describe_analysis(palette, &who.observer, who.adapted_y));
 }
 
 static json_t *describe_weights(const mtm_scene *scene, const mtm_light_mix *mix) {
@@ -90,11 +92,12 @@ static json_t *describe_scene(const mtm_scene *scene) {
     json_t *stops = json_array();
     for (int i = 0; i < scene->stop_count; i++)
         (void)json_array_append_new(stops, json_string(scene->stops[i].name));
-    return json_pack("{s:s, s:s?, s:o, s:o, s:f, s:o, s:s, s:s, s:[i,i], s:i}", "kind", "scene", "volume",
-                     scene->volume_file, "materials", describe_materials(&scene->palette, &who), "weights",
-                     describe_weights(scene, &scene->lights), "intensity", scene->lights.intensity, "stops",
-                     stops, "renderer", scene->renderer, "basis", scene->basis, "size", scene->render.width,
-                     scene->render.height, "points", scene->point_count);
+    return json_pack("{s:s, s:s?, s:o, s:o, s:f, s:o, s:s, s:s, s:[i,i], s:i, s:o}", "kind", "scene",
+                     "volume", scene->volume_file, "materials", describe_materials(&scene->palette, &who),
+                     "weights", describe_weights(scene, &scene->lights), "intensity", scene->lights.intensity,
+                     "stops", stops, "renderer", scene->renderer, "basis", scene->basis, "size",
+                     scene->render.width, scene->render.height, "points", scene->point_count, "analysis",
+                     describe_analysis(&scene->palette, &who.observer, who.adapted_y));
 }
 
 /* Share of pixels that hold anything: the paper's "fill". */
@@ -217,7 +220,10 @@ static void print_plain(const json_t *object, int indent) {
     json_t *value = NULL;
     json_object_foreach((json_t *)object, key, value) {
         (void)printf("%*s%-*s ", indent, "", 14 - indent, key);
-        if (json_is_object(value)) {
+        if (strcmp(key, "analysis") == 0) {
+            (void)printf("\n");
+            print_analysis(value, indent + 2);
+        } else if (json_is_object(value)) {
             (void)printf("\n");
             print_plain(value, indent + 2);
         } else if (json_is_array(value) && json_is_object(json_array_get(value, 0))) {

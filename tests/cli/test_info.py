@@ -75,6 +75,82 @@ class Info(support.CliTest):
         self.assertEqual((found["kind"], found["lights"]), ("palette", ["day", "lamp", "tube"]))
         self.assertEqual([m["name"] for m in found["materials"]], ["haze", "shell", "core"])
 
+    def test_the_analysis_of_a_palette(self):
+        # Narrow lights: red paint and white are the same to the first, red and black to the second.
+        def band(low, high, inside, outside):
+            return [inside if low <= 380 + 5 * i <= high else outside for i in range(81)]
+        self.write_json("p.json", {
+            "materials": [{"name": "white", "values": [0.9] * 81},
+                          {"name": "red", "values": band(590, 780, 0.9, 0)},
+                          {"name": "soot", "values": [0] * 81}],
+            "lights": [{"name": "amber", "values": band(595, 610, 1, 0)},
+                       {"name": "green", "values": band(520, 535, 1, 0)},
+                       {"name": "both", "values": [a + b for a, b in zip(band(595, 610, 1, 0), band(520, 535, 1, 0))]}]})
+        found = self.json_of("info", "p.json")["analysis"]
+        self.assertEqual(found["thresholds"], {"match": 1, "similar": 5, "invisible": 2})
+        self.assertEqual(set(found["left_out"].values()), {0})
+        verdicts = {(pair["light"], *pair["materials"]): pair["verdict"] for pair in found["pairs"]}
+        self.assertEqual(len(verdicts), 9)
+        self.assertEqual(verdicts["amber", "white", "red"], "match")
+        self.assertEqual(verdicts["green", "white", "red"], "differ")
+        self.assertEqual(verdicts["green", "red", "soot"], "match")
+        self.assertTrue(all(set(pair["ciede2000"]) == {"normal", "protan", "deutan", "tritan"}
+                            for pair in found["pairs"]))
+        invisible = {(entry["light"], entry["material"]) for entry in found["invisible"]}
+        self.assertEqual(invisible, {("amber", "soot"), ("green", "soot"), ("both", "soot"), ("green", "red")})
+        metamers = {(entry["match"], entry["other"]): entry for entry in found["metamers"]}
+        self.assertEqual(set(metamers), {("amber", "green"), ("amber", "both")})
+        for entry in metamers.values():
+            self.assertEqual(entry["materials"], ["white", "red"])
+            self.assertGreater(entry["ciede2000"], 10)
+            self.assertGreater(entry["largest"], 0.98 * entry["ciede2000"])
+        self.assertEqual(found["constant"], [])
+        text = self.succeed("info", "p.json")
+        for sentence in ("look the same\n    white and red under amber (0.0)\n", "black, so not seen\n    soot under amber\n",
+                         "white and red match under amber and part by "):
+            self.assertIn(sentence, text)
+        self.assertNotIn("red and soot under green", text)  # both black: no news
+
+    def test_the_analysis_of_a_scene_is_for_its_observer_and_white(self):
+        scene = support.make_scene()
+        scene["palette"]["materials"] = [{"name": "gray", "values": [0.4] * 81}, *support.MATERIALS]
+        self.write_json("plain.json", scene)
+        scene["white"] = "light"
+        self.write_json("adapted.json", scene)
+        plain, adapted = (self.json_of("info", f"{name}.json")["analysis"] for name in ("plain", "adapted"))
+        def lights_of_gray(analysis):
+            return {tuple(entry["lights"]) for entry in analysis["constant"] if entry["material"] == "gray"}
+        self.assertEqual(lights_of_gray(plain), set())
+        self.assertEqual(lights_of_gray(adapted), {("day", "lamp"), ("day", "tube"), ("lamp", "tube")})
+
+    def test_color_blind_eyes_are_told_of(self):
+        self.write_json("p.json", {"materials": [{"name": "rust", "srgb": "#c08070"}, {"name": "moss", "srgb": "#939170"}],
+                                   "lights": support.LIGHTS[:1]})
+        text = self.succeed("info", "p.json")
+        self.assertRegex(text, r"hard for color-blind eyes.*\n    rust and moss under day \(24\.\d; protan \d\.\d deutan 2\.\d\)")
+
+    def test_a_palette_without_news_says_so(self):
+        self.write_json("p.json", {"materials": [{"name": "white", "values": [1] * 81}, {"name": "dark", "values": [0.1] * 81}],
+                                   "lights": support.LIGHTS[:1]})
+        self.assertIn("every material is seen and told apart from the others under every light", self.succeed("info", "p.json"))
+
+    def test_of_a_large_palette_what_is_left_out_is_said(self):
+        self.write_json("p.json", {
+            "materials": [{"name": f"m{i}", "values": [0.01 * (i + 1)] * 81} for i in range(60)] +
+                         [{"name": f"same{i}", "values": [0.3] * 81} for i in range(6)] +
+                         [{"name": "rust", "srgb": "#c08070"}, {"name": "moss", "srgb": "#939170"}],
+            "lights": support.LIGHTS})
+        found = self.json_of("info", "p.json")["analysis"]
+        total = 3 * 68 * 67 // 2
+        self.assertEqual(len(found["pairs"]) + found["left_out"]["pairs"], total)
+        self.assertTrue(all(min(pair["ciede2000"].values()) <= 5 for pair in found["pairs"]))
+        self.assertIn(["rust", "moss"], [pair["materials"] for pair in found["pairs"]])
+        self.assertEqual(len(found["metamers"]), 16)
+        self.assertGreaterEqual(found["left_out"]["metamers"], 3 * 2 * 6 * 5 // 2 - 16)
+        text = self.succeed("info", "p.json")
+        self.assertIn(f"of this large palette {found['left_out']['pairs']} pairs are not listed", text)
+        self.assertRegex(text, r"same\n(    .*\n){12}    and \d+ more\n")
+
     def test_spectra(self):
         self.write_text("s.csv", "wavelength_nm,red,green\n400,0,1\n500,0.5,0.5\n600,1,0\n")
         found = self.json_of("info", "s.csv")
