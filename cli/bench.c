@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * metamer bench: how long the steps of a picture take. The rules are the same for every suite: what is timed is checked
- * first; what is compared takes turns, run by run, so that a busy machine slows all of it; medians, and how far the runs
- * scatter. docs/files.md has the columns. */
+ * metamer bench: how long the steps of a picture and the design of a palette take. The rules are the same for every
+ * suite: what is timed is checked first; what is compared takes turns, run by run, so that a busy machine slows all of it;
+ * medians, and how far the runs scatter. docs/files.md has the columns. */
 #include "bench.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static const bench_suite *const suites[] = {&frames_suite, &table1_suite, &kernels_suite, &scaling_suite,
-                                            &ablation_suite};
+static const bench_suite *const suites[] = {&frames_suite,  &table1_suite,   &kernels_suite,
+                                            &scaling_suite, &ablation_suite, &design_suite};
 enum { SUITES = sizeof suites / sizeof *suites };
 
-#define SUITE_NAMES "frames, table1, kernels, scaling or ablation"
+#define SUITE_NAMES "frames, table1, kernels, scaling, ablation or design"
 
 static const command_option options[] = {
     {"--suite", "NAME", SUITE_NAMES "; default: all of them"},
@@ -148,7 +148,9 @@ const subcommand bench_command = {
     .name = "bench",
     .arguments = "[options]",
     .summary =
-        "Time the steps of pictures: projecting, relighting, changing the transfer function.\n"
+        "Time the steps of pictures (projecting, relighting, changing the transfer function) and the design "
+        "of "
+        "palettes.\n"
         "Volumes are looked for in the folders of METAMER_DATA, then in examples/*/ below the working "
         "folder;\n"
         "rows of others stay empty. Everything is checked against plain code before it is timed, and what "

@@ -21,7 +21,8 @@ typedef struct bench_suite {
     mtm_status (*run)(const bench_settings *settings, bench_rows *rows, mtm_error *error);
 } bench_suite;
 
-extern const bench_suite frames_suite, table1_suite, kernels_suite, scaling_suite, ablation_suite;
+extern const bench_suite frames_suite, table1_suite, kernels_suite, scaling_suite, ablation_suite,
+    design_suite;
 
 enum { BENCH_PICTURE_EDGE = 512 /* pixels, where a row says nothing else */ };
 

@@ -58,15 +58,19 @@ void set_number(json_t *row, const char *column, double value) {
     if (isfinite(value)) (void)json_object_set_new(row, column, json_real(value));
 }
 
+void set_summary(json_t *row, const char *column, const bench_summary *summary) {
+    char name[NAME_BYTES];
+    set_number(row, column, summary->median);
+    name_statistic(column, "p95", name);
+    set_number(row, name, summary->p95);
+    name_statistic(column, "spread", name);
+    set_number(row, name, summary->spread);
+}
+
 void set_times(json_t *row, const char *column, const bench_times *times) {
     if (times->count == 0) return;
-    char name[NAME_BYTES];
     const bench_summary summary = summarize_times(times);
-    set_number(row, column, summary.median);
-    name_statistic(column, "p95", name);
-    set_number(row, name, summary.p95);
-    name_statistic(column, "spread", name);
-    set_number(row, name, summary.spread);
+    set_summary(row, column, &summary);
 }
 
 void set_ratio(json_t *row, const char *column, const bench_times *numerator,

@@ -26,6 +26,7 @@ void set_text(json_t *row, const char *column, const char *text);
 void set_count(json_t *row, const char *column, int value);
 void set_number(json_t *row, const char *column, double value);
 void set_times(json_t *row, const char *column, const bench_times *times);
+void set_summary(json_t *row, const char *column, const bench_summary *summary);
 
 /* numerator / denominator, the medians of both. */
 void set_ratio(json_t *row, const char *column, const bench_times *numerator, const bench_times *denominator);

@@ -24,21 +24,24 @@ static int compare_doubles(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Of sorted times; `percent` 1 … 100. In integers, so that no rounding moves a rank. */
-static double nearest_rank(const bench_times *sorted, int percent) {
-    return sorted->ms[(percent * sorted->count + 99) / 100 - 1];
+/* `percent` 1 … 100. In integers, so that no rounding moves a rank. */
+static double nearest_rank(int count, const double *sorted, int percent) {
+    return sorted[(percent * count + 99) / 100 - 1];
+}
+
+bench_summary summarize_values(int count, double *values) {
+    assert(count > 0);
+    qsort(values, (size_t)count, sizeof *values, compare_doubles);
+    return (bench_summary){
+        .median = 0.5 * (values[(count - 1) / 2] + values[count / 2]),
+        .p95 = nearest_rank(count, values, 95),
+        .spread = nearest_rank(count, values, 75) - nearest_rank(count, values, 25),
+    };
 }
 
 bench_summary summarize_times(const bench_times *times) {
-    assert(times->count > 0);
     bench_times sorted = *times;
-    const int n = sorted.count;
-    qsort(sorted.ms, (size_t)n, sizeof *sorted.ms, compare_doubles);
-    return (bench_summary){
-        .median = 0.5 * (sorted.ms[(n - 1) / 2] + sorted.ms[n / 2]),
-        .p95 = nearest_rank(&sorted, 95),
-        .spread = nearest_rank(&sorted, 75) - nearest_rank(&sorted, 25),
-    };
+    return summarize_values(sorted.count, sorted.ms);
 }
 
 double median_ms(const bench_times *times) {

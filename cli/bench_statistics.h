@@ -23,6 +23,8 @@ double now_ms(void);
 /* Preconditions: fewer than BENCH_RUNS_MAX times so far; at least one. */
 void add_time(bench_times *times, double ms);
 bench_summary summarize_times(const bench_times *times);
+/* Of any numbers, which it sorts; at least one. */
+bench_summary summarize_values(int count, double *values);
 double median_ms(const bench_times *times);
 
 /* The share of the variance of y that the best line y = a + b·x explains (R², 0 … 1); 1 where y does not vary.

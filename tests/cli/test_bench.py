@@ -22,6 +22,9 @@ COLUMNS = {
     "scaling": "varied value threads picture_edge volume_edge lanes fill raycast_ms postilluminate_ms classify_ms "
                "affine_r_squared",
     "ablation": "frame device isa spectral_raycast_ms per_everything prepare_ms classify_ms psnr_db",
+    "design": "problem method threads documents goals failures solved everything_solved solved_basis ciede2000_median "
+              "ciede2000_p95 ciede2000_worst ciede2000_basis_median ciede2000_basis_p95 ciede2000_basis_worst physical "
+              "design_ms slowest_s",
 }
 NOT_THERE = {column for column in COLUMNS["table1"].split() if re.search("splat|fourier", column)
              and not column.startswith("paper")}
@@ -210,13 +213,40 @@ class Bench(support.CliTest):
                                         "derived layout")])
         self.assertEqual(len(result.stderr.splitlines()), 2)
 
+    def check_design_row(self, row, but=()):
+        self.check_timed(row, but)
+        for key in ("solved", "solved_basis", "physical"):
+            self.assertTrue(0 <= row[key] <= 1, key)
+        for key in ("ciede2000", "ciede2000_basis"):
+            self.assertTrue(0 <= row[key + "_median"] <= row[key + "_p95"] <= row[key + "_worst"], key)
+        self.assertAlmostEqual(row["slowest_s"] / (1e-3 * row["design_p95_ms"]), 1, 4)  # of so few it is the 95th, too
+
+    def test_design_of_fixed_problems(self):
+        (row,) = self.bench("design", "metamers D65/A")["rows"]
+        self.check_design_row(row, but=["everything_solved"])
+        self.assertEqual((row["method"], row["documents"], row["goals"], row["failures"]), ("everything", 1, 3, 0))
+        self.assertEqual((row["solved"], row["physical"]), (1, 1))
+        (row,) = self.bench("design", "21 equalities", "--threads", 2)["rows"]
+        self.check_design_row(row, but=["everything_solved"])
+        self.assertEqual((row["method"], row["threads"], row["goals"]), ("without basis rows", 1, 7))
+        self.assertEqual(row["solved"], 1)
+
+    def test_design_of_random_documents_is_the_same_again(self):
+        rows = [self.bench("design", "reachable without starts", "--threads", threads)["rows"][0] for threads in (1, 2)]
+        for row in rows:
+            self.check_design_row(row, but=["everything_solved"])
+            self.assertEqual((row["problem"], row["method"], row["documents"]), ("reachable", "without starts", 10))
+        for key in keys_of("design"):
+            if key != "threads" and not key.endswith(("_ms", "_s")):
+                self.assertEqual(rows[0][key], rows[1][key], key)
+
     def test_without_a_suite_all_of_them_run(self):
         self.write_example("engine.nrrd")
         documents = self.json_of("bench", "--runs", 1, "--only", "engine smoke everything", env=self.data)
         self.assertEqual([document["suite"] for document in documents], list(COLUMNS))
         for document in documents:
             self.check_suite(document, document["suite"])
-        self.assertEqual([len(document["rows"]) for document in documents], [0, 0, 0, 0, 1])
+        self.assertEqual([len(document["rows"]) for document in documents], [0, 0, 0, 0, 1, 0])
 
     def test_the_table_holds_the_rows_in_any_locale(self):
         locale = {"LC_ALL": "", "LC_NUMERIC": "comma", "LOCPATH": self.folder} if self.make_comma_locale() else {}
@@ -233,7 +263,7 @@ class Bench(support.CliTest):
             self.assertLessEqual(set(columns.split()), described)
 
     def test_bad_usage(self):
-        for words, texts in ((["--suite", "frame"], ["frame", "frames, table1, kernels, scaling or ablation"]),
+        for words, texts in ((["--suite", "frame"], ["frame", "frames, table1, kernels, scaling, ablation or design"]),
                              (["--suite"], ["--suite"]), (["frames"], ["frames"]), (["--runs", "0"], ["--runs", "0"]),
                              (["--runs", "257"], ["257"]), (["--runs", "1.5"], ["1.5"]), (["--threads", "x"], ["x"]),
                              (["--json=yes"], ["--json"]), (["--size", "8"], ["--size", "8"])):
