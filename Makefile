@@ -7,7 +7,7 @@ BENCH ?=
 ROUNDS ?= 5
 export FUZZ_SECONDS
 
-.PHONY: help setup build demo test bench bases accuracy format lint asan tsan fuzz peers big emulate install clean
+.PHONY: help setup build demo test bench bases palettes pictures accuracy format lint asan tsan fuzz peers big emulate install clean
 
 help: ## this list
 	@sed -nE 's/^([a-z]+):.*## /  make \1\t/p' Makefile | expand -t 18
@@ -33,6 +33,14 @@ bench: ## how long the steps of pictures take (BENCH="--suite frames --runs 20")
 bases: ## fit the tables of data/bases again, in place
 	@tools/bootstrap --quiet build && tools/build release
 	@build/release/accuracy/fit . data/bases
+
+palettes: ## design the palettes of examples/ again, in place
+	@tools/bootstrap --quiet build && tools/build release metamer
+	@for goals in examples/*/*.goals.json; do build/release/metamer design $$goals -o $${goals%goals.json}palette.json || exit; done
+
+pictures: ## render the pictures of README.md and docs/design.md again
+	@tools/bootstrap --quiet build && tools/build release metamer
+	@tools/pictures
 
 accuracy: ## measure the bases again into docs/accuracy.md (MORE=folder)
 	@tools/bootstrap --quiet build && tools/build release

@@ -175,8 +175,9 @@ class Report(unittest.TestCase):
     def test_pictures_of_measured_palettes_are_right(self):
         engine = self.numbers["engine"]
         self.assertLessEqual(engine["factors:7"]["measured"]["mean"], 0.5)
-        self.assertGreater(engine["rgb"]["measured"]["mean"], engine["sharpened:7"]["measured"]["mean"])
-        self.assertGreater(engine["sharpened:7"]["measured"]["mean"], engine["factors:7"]["measured"]["mean"])
+        # The engine's lights are narrow. `sharpened` encodes them, and comes out no better than RGB.
+        for other in ("rgb", "sharpened:7"):
+            self.assertGreater(engine[other]["measured"]["mean"], 2 * engine["factors:7"]["measured"]["mean"])
         self.assertLess(engine["materials"]["measured"]["max"], 0.01)
         self.assertLess(engine["materials"]["own"]["max"], 0.01)
 
