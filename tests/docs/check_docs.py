@@ -5,7 +5,6 @@ example scene is read, every key that the readers know and every subcommand is d
 import json
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -14,6 +13,7 @@ import unittest
 METAMER = pathlib.Path(sys.argv.pop()).resolve()
 SOURCE = pathlib.Path(sys.argv.pop()).resolve()
 SCENE_MANUAL = (SOURCE / "docs/scene.md").read_text(encoding="utf-8")
+DESIGN_MANUAL = (SOURCE / "docs/design.md").read_text(encoding="utf-8")
 FILES_MANUAL = (SOURCE / "docs/files.md").read_text(encoding="utf-8")
 
 
@@ -46,8 +46,9 @@ class Docs(unittest.TestCase):
         examples = re.findall(r"<!-- test: scene -->\n```json\n(.*?)```", SCENE_MANUAL, re.DOTALL)
         self.assertEqual(len(examples), 1)
         with tempfile.TemporaryDirectory() as folder:
-            for table in ("reflectances.csv", "lights.csv"):
-                shutil.copy(SOURCE / "examples/engine" / table, folder)
+            for table, column in (("reflectances.csv", "block"), ("lights.csv", "light 2")):
+                text = f"wavelength_nm,{column}\n380,0.2\n780,0.8\n"
+                pathlib.Path(folder, table).write_text(text, encoding="utf-8")
             path = pathlib.Path(folder, "example.json")
             path.write_text(examples[0], encoding="utf-8")
             status, output, message = info(path)
@@ -63,6 +64,26 @@ class Docs(unittest.TestCase):
             for key in re.findall(r'"([^"]+)"', " ".join(lists)):
                 self.assertIn(key, described, f"{key} of {name}")
 
+    def test_every_key_of_the_goals_document_and_every_recipe_is_described(self):
+        described = set(re.findall(r"`([a-z0-9_ ]+)`", DESIGN_MANUAL))
+        for name, least in (("goals_read.c", 18), ("goals_cells.c", 11), ("recipes.c", 18), ("recipes_figures.c", 10)):
+            text = (SOURCE / "src/palette" / name).read_text(encoding="utf-8")
+            lists = re.findall(r"(?:keys\[\]|\.materials|\.lights) = \{(.*?)\}[;,]\n", text, re.DOTALL)
+            lists += re.findall(r" recipes\[\] = \{(.*?)\n\};", text, re.DOTALL)
+            keys = set(re.findall(r'"([a-z0-9_ ]+)"', " ".join(lists)))
+            self.assertGreaterEqual(len(keys), least, name)
+            for key in keys:
+                self.assertIn(key, described, f"{key} of {name}")
+
+    def test_the_colors_of_the_figures_are_those_of_the_recipes(self):
+        text = (SOURCE / "src/palette/recipes_figures.c").read_text(encoding="utf-8")
+        figures = re.findall(r"mtm_figure_(\d) = \{\s*\.materials = \{(.*?)\},\s*\.colors = \{(.*?)\},", text, re.DOTALL)
+        self.assertEqual(len(figures), 4)
+        for number, names, colors in figures:
+            row = re.search(rf"^\| {number} \| (.*) \|$", DESIGN_MANUAL, re.MULTILINE).group(1)
+            expected = dict(zip(re.findall(r'"(.*?)"', names), re.findall(r'"(.*?)"', colors)))
+            self.assertEqual(dict(re.findall(r"`([a-z]+)` (#[0-9a-f]+)", row)), expected)
+
     def test_the_renderers_and_bases_described_are_those_there_are(self):
         text = (SOURCE / "src/render").glob("*.c")
         names = re.findall(r'\.name = "([a-z-]+)"', " ".join(path.read_text(encoding="utf-8") for path in text))
@@ -74,7 +95,7 @@ class Docs(unittest.TestCase):
 
     def test_info_prints_the_keys_that_are_described(self):
         for path in ("examples/engine/engine.json", "examples/engine/engine.palette.json",
-                     "examples/engine/engine.nrrd", "examples/engine/lights.csv", "docs/pictures/engine-lights.png"):
+                     "examples/engine/engine.nrrd", "data/spectra/lights_xenon.csv", "docs/pictures/engine-lights.png"):
             status, output, message = info(SOURCE / path)
             self.assertEqual((status, message), (0, ""))
             facts = json.loads(output)
