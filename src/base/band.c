@@ -2,10 +2,6 @@
  * Banded matrices of five diagonals by LDLᵀ without pivoting (Golub, Van Loan, Matrix Computations, section 4.3). */
 #include "base/band.h"
 
-void mtm_take_away(int count, double factor, const double *other, double *row) {
-    for (int j = 0; j < count; j++) row[j] -= factor * other[j];
-}
-
 void mtm_band_add_slope(mtm_band *matrix, int i, double amount) {
     matrix->main[i] += amount;
     matrix->main[i + 1] += amount;

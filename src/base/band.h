@@ -25,6 +25,8 @@ void mtm_band_factor(int n, mtm_band *matrix);
 void mtm_band_solve(int n, const mtm_band *factor, int count, double *x);
 
 /* row[j] -= factor · other[j] */
-void mtm_take_away(int count, double factor, const double *other, double *row);
+static inline void mtm_take_away(int count, double factor, const double *other, double *row) {
+    for (int j = 0; j < count; j++) row[j] -= factor * other[j];
+}
 
 #endif

@@ -7,16 +7,6 @@
 #include <float.h>
 #include <math.h>
 
-/* Four partial sums, in this order: an addition need not wait for the one before. */
-double mtm_dot(int n, const double *a, const double *b) {
-    double part[4] = {0, 0, 0, 0};
-    int i = 0;
-    for (; i + 4 <= n; i += 4)
-        for (int k = 0; k < 4; k++) part[k] += a[i + k] * b[i + k];
-    for (; i < n; i++) part[0] += a[i] * b[i];
-    return (part[0] + part[1]) + (part[2] + part[3]);
-}
-
 bool mtm_cholesky_factor(int n, int stride, double *matrix) {
     assert(n >= 0 && stride >= n);
     for (int i = 0; i < n; i++) {

@@ -5,8 +5,15 @@
 
 #include "metamer/base.h"
 
-/* Σ a[i]·b[i]. */
-double mtm_dot(int n, const double *a, const double *b);
+/* Σ a[i]·b[i] in four partial sums, in this order: an addition need not wait for the one before. */
+static inline double mtm_dot(int n, const double *a, const double *b) {
+    double part[4] = {0, 0, 0, 0};
+    int i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (int k = 0; k < 4; k++) part[k] += a[i + k] * b[i + k];
+    for (; i < n; i++) part[0] += a[i] * b[i];
+    return (part[0] + part[1]) + (part[2] + part[3]);
+}
 
 /* Replaces the lower triangle (diagonal included) of the symmetric n×n `matrix`, row by row, `stride` ≥ n doubles
  * from row to row, by its Cholesky factor L, matrix = L·Lᵀ; what lies above the diagonal is neither read nor
