@@ -419,15 +419,16 @@ mtm_status mtm_search_begin(const mtm_search *search, int start, mtm_found *foun
 /* Goes downhill with one `give`, all unknowns together. */
 static mtm_status descend(const mtm_search *search, mtm_found *found, double miss_give, mtm_spectrum *trial,
                           mtm_error *error) {
-    enum { STEPS = 20 };
+    enum { STEPS = 20, STEPS_LARGE = 6, LARGE = 8 /* unknowns, of which a step costs the cube */ };
     static const double still = 1e-3, damping_first = 0.1, damping_most = 1e4;
     const size_t bytes = (size_t)search->unknown_count * sizeof *trial;
+    const int steps = search->unknown_count > LARGE ? STEPS_LARGE : STEPS;
     bool is_moving[MTM_DESIGNED_MAX];
     double damping = is_bilinear(search) ? damping_first : 0;
     mtm_status status = MTM_OK;
     for (int u = 0; u < search->unknown_count; u++) is_moving[u] = true;
     found->cost = total_cost(search, found->spectra, miss_give);
-    for (int step = 0; step < STEPS && damping < damping_most && status == MTM_OK; step++) {
+    for (int step = 0; step < steps && damping < damping_most && status == MTM_OK; step++) {
         memcpy(trial, found->spectra, bytes);
         double contradiction = 0;
         status = take_step(search, trial, is_moving, miss_give, damping, 0, &contradiction, error);
