@@ -168,7 +168,6 @@ static void keep_best(const mtm_search *search, const start_round *r, int count,
         if (r->statuses[i] != MTM_OK || !(r->found[i].cost < best->cost * (1 - same))) continue;
         memcpy(best->spectra, r->found[i].spectra, (size_t)search->unknown_count * sizeof *best->spectra);
         best->cost = r->found[i].cost;
-        best->contradiction = r->found[i].contradiction;
     }
 }
 
@@ -250,7 +249,6 @@ static mtm_status put_full_first(const mtm_search *search, const both_views *vie
     if (status == MTM_OK && count_unmet(search, &other, views).full < before) {
         memcpy(best->spectra, other.spectra, bytes);
         best->cost = other.cost;
-        best->contradiction = other.contradiction;
     }
     free(other.spectra);
     return status;
