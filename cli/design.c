@@ -2,8 +2,8 @@
  * metamer design: from what cells of a palette are to look like to spectra that do it, or the reasons why not. */
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "bench_statistics.h"
 #include "design_plot.h"
 #include "task.h"
 
@@ -152,12 +152,6 @@ static mtm_status check_outputs(const design_request *request, mtm_error *error)
     return status;
 }
 
-static double now_seconds(void) {
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
-
 static int design(const subcommand *command, const design_request *request) {
     mtm_error error = {""};
     mtm_goals *goals = NULL;
@@ -167,13 +161,13 @@ static int design(const subcommand *command, const design_request *request) {
     how.thread_count = request->threads;
     mtm_status status = check_outputs(request, &error);
     if (status == MTM_OK) status = mtm_goals_read(request->input, &goals, &error);
-    const double start = now_seconds();
+    const double start_ms = now_ms();
     if (status == MTM_OK) {
         how.progress = start_progress(&bar, "designing");
         status = mtm_design_find(goals, &how, &found, &error);
         end_progress(&bar);
     }
-    const double seconds = now_seconds() - start;
+    const double seconds = (now_ms() - start_ms) / 1000;
     if (status == MTM_OK) status = write_files(request, found, seconds, &error);
     if (status == MTM_OK && request->is_json)
         status = write_text(NULL, mtm_design_format(found, seconds), &error);

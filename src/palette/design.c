@@ -4,7 +4,6 @@
  * Measured reflectances are tried first, then the search is run from several starts; the cheapest result is kept. */
 #include "palette/design.h"
 
-#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,10 +71,6 @@ static mtm_xyz color_asked(const mtm_search *search, const mtm_found *found, con
     return goal->color;
 }
 
-static double lack_of(const mtm_goal *goal, double difference) {
-    return goal->kind == MTM_GOAL_DIFFERENT ? fmax(0, goal->least - difference) : difference;
-}
-
 mtm_goal_result mtm_goal_judge(const mtm_search *search, const mtm_found *found, const mtm_color_view *full,
                                const mtm_color_view *basis, const mtm_goal *goal) {
     mtm_goal_result result = {.goal = *goal};
@@ -92,8 +87,8 @@ mtm_goal_result mtm_goal_judge(const mtm_search *search, const mtm_found *found,
         result.achieved_basis = result.achieved;
         result.difference_basis = result.difference;
     }
-    result.ciede2000 = lack_of(goal, result.difference);
-    result.ciede2000_basis = lack_of(goal, result.difference_basis);
+    result.ciede2000 = mtm_goal_lack(goal, result.difference);
+    result.ciede2000_basis = mtm_goal_lack(goal, result.difference_basis);
     return result;
 }
 

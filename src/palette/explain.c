@@ -25,9 +25,7 @@ typedef struct explanation {
 } explanation;
 
 static bool is_unknown(const mtm_search *search, bool is_light, int index) {
-    for (int u = 0; u < search->unknown_count; u++)
-        if (search->unknowns[u].is_light == is_light && search->unknowns[u].index == index) return true;
-    return false;
+    return (is_light ? search->goals->lights : search->goals->materials)[index].is_designed;
 }
 
 /* Whether a spectrum of the kind is to be found in either cell of the goal. */

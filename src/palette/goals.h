@@ -3,6 +3,8 @@
 #ifndef METAMER_PALETTE_GOALS_H
 #define METAMER_PALETTE_GOALS_H
 
+#include <math.h>
+
 #include "metamer/palette.h"
 
 enum {
@@ -44,6 +46,11 @@ struct mtm_goals {
 /* Whether a goal compares its cell with another one, not with a color. */
 static inline bool mtm_goal_has_other(const mtm_goal *goal) {
     return goal->kind != MTM_GOAL_COLOR && goal->other.material >= 0;
+}
+
+/* How far a goal is from being met where its colors differ so much, in CIEDE2000. */
+static inline double mtm_goal_lack(const mtm_goal *goal, double difference) {
+    return goal->kind == MTM_GOAL_DIFFERENT ? fmax(0, goal->least - difference) : difference;
 }
 
 #endif

@@ -32,6 +32,7 @@ typedef struct library {
     candidate *candidates;
     int light_count; /* of the palette */
     mtm_lab *labs;   /* candidate_count × light_count; of given lights only */
+    mtm_lab *given;  /* of the palette's materials, in the same way; of given ones only */
     int *chosen;     /* the candidate of each material of the search; -1: none yet */
 } library;
 
@@ -109,24 +110,31 @@ static mtm_status read_tables(library *lib, mtm_error *error) {
     return status;
 }
 
-/* The colors of all candidates under the given lights. */
+static mtm_lab lab_of(const library *lib, const mtm_samples light, const mtm_spectrum *reflectance) {
+    mtm_color color;
+    mtm_color_view_cell(&lib->view, light, reflectance->value, color);
+    return mtm_lab_from_xyz(mtm_xyz_of_color(color), mtm_white_d65());
+}
+
+/* The colors of all candidates and of the given materials under the given lights. */
 static mtm_status fill_labs(library *lib, mtm_error *error) {
+    const mtm_palette *palette = &lib->goals->palette;
     const size_t lights = (size_t)lib->light_count;
+    const size_t materials = (size_t)palette->material_count;
     lib->labs = mtm_allocate(lib->candidate_count * lights, sizeof *lib->labs);
-    if (lib->labs == NULL)
+    lib->given = mtm_allocate(materials * lights, sizeof *lib->given);
+    if (lib->labs == NULL || lib->given == NULL)
         return mtm_fail_memory(error, "the colors of measured reflectances",
-                               lib->candidate_count * lights * sizeof *lib->labs);
-    for (int light = 0; light < lib->light_count; light++) {
+                               (lib->candidate_count + materials) * lights * sizeof *lib->labs);
+    for (size_t light = 0; light < lights; light++) {
         mtm_samples samples;
-        if (!is_given_light(lib->goals, light) ||
-            !mtm_samples_of_light(&lib->goals->palette.lights[light].emission, samples))
+        if (!is_given_light(lib->goals, (int)light) ||
+            !mtm_samples_of_light(&palette->lights[light].emission, samples))
             continue;
-        for (size_t c = 0; c < lib->candidate_count; c++) {
-            mtm_color color;
-            mtm_color_view_cell(&lib->view, samples, lib->candidates[c].reflectance.value, color);
-            lib->labs[c * lights + (size_t)light] =
-                mtm_lab_from_xyz(mtm_xyz_of_color(color), mtm_white_d65());
-        }
+        for (size_t c = 0; c < lib->candidate_count; c++)
+            lib->labs[c * lights + light] = lab_of(lib, samples, &lib->candidates[c].reflectance);
+        for (size_t m = 0; m < materials; m++)
+            lib->given[m * lights + light] = lab_of(lib, samples, &palette->materials[m].reflectance);
     }
     return MTM_OK;
 }
@@ -136,17 +144,10 @@ static mtm_status fill_labs(library *lib, mtm_error *error) {
 /* The color of a cell with the candidates that are chosen; false where one is not chosen yet. */
 static bool lab_of_cell(const library *lib, mtm_cell cell, mtm_lab *lab) {
     const int place = place_of(lib, cell.material);
-    if (place >= 0) {
-        if (lib->chosen[place] < 0) return false;
-        *lab = lib->labs[(size_t)lib->chosen[place] * (size_t)lib->light_count + (size_t)cell.light];
-        return true;
-    }
-    mtm_samples samples;
-    mtm_color color;
-    if (!mtm_samples_of_light(&lib->goals->palette.lights[cell.light].emission, samples)) return false;
-    mtm_color_view_cell(&lib->view, samples, lib->goals->palette.materials[cell.material].reflectance.value,
-                        color);
-    *lab = mtm_lab_from_xyz(mtm_xyz_of_color(color), mtm_white_d65());
+    if (place >= 0 && lib->chosen[place] < 0) return false;
+    const mtm_lab *labs = place >= 0 ? lib->labs : lib->given;
+    const size_t row = (size_t)(place >= 0 ? lib->chosen[place] : cell.material);
+    *lab = labs[row * (size_t)lib->light_count + (size_t)cell.light];
     return true;
 }
 
@@ -161,8 +162,7 @@ static double lack_of(const library *lib, const mtm_goal *goal) {
         const mtm_xyz xyz = goal->kind == MTM_GOAL_COLOR ? goal->color : (mtm_xyz){0, 0, 0};
         other = mtm_lab_from_xyz(xyz, mtm_white_d65());
     }
-    const double difference = mtm_ciede2000(own, other);
-    return goal->kind == MTM_GOAL_DIFFERENT ? fmax(0, goal->least - difference) : difference;
+    return mtm_goal_lack(goal, mtm_ciede2000(own, other));
 }
 
 /* What all goals lack, squared and weighted; may end early where it is above `enough`. */
@@ -288,6 +288,7 @@ static mtm_status run_search(mtm_goals *goals, const mtm_library_search *search,
     mtm_color_view_free(&lib.view);
     free(lib.candidates);
     free(lib.labs);
+    free(lib.given);
     free(lib.chosen);
     return status;
 }
